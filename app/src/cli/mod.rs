@@ -1,0 +1,94 @@
+//! The command line: one subcommand per file. What the window renders, `render` renders too.
+
+mod estimators;
+mod info;
+mod lab;
+mod progress;
+mod render;
+mod scenes;
+mod source;
+
+use clap::{Parser, Subcommand};
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// A volume-lighting lab: see, touch and measure Monte Carlo light transport in participating media.
+#[derive(Parser, Debug)]
+#[command(
+    name = "majorant",
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Without a subcommand the lab opens, on FILE or on its embedded scene.
+
+Examples:
+  majorant                                        open the lab
+  majorant cloud.vdb                              open it on your own volume
+  majorant scenes                                 list the embedded scenes
+  majorant render first-light -o out.exr --spp 64
+  majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
+
+Exit codes: 0 success, 1 a file or a render failed, 2 wrong usage, 3 no display for the window."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    lab: lab::Arguments,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Render a scene without a window.
+    Render(render::Arguments),
+    /// List the estimators.
+    Estimators,
+    /// Describe a volume, picture or scene file.
+    Info(info::Arguments),
+    /// List the embedded scenes.
+    Scenes,
+}
+
+/// What a command ends with.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// Something went wrong; the message names the cause and the cure.
+    Message(String),
+    /// There is no display to open a window on.
+    NoDisplay(String),
+}
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Message(error.to_string())
+    }
+}
+
+/// Runs the program with the arguments of the process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        None => lab::run(arguments.lab),
+        Some(Command::Render(a)) => render::run(&a),
+        Some(Command::Estimators) => estimators::run(),
+        Some(Command::Info(a)) => info::run(&a),
+        Some(Command::Scenes) => scenes::run(),
+    };
+    let (code, message) = match result {
+        Ok(()) => return ExitCode::SUCCESS,
+        Err(Failure::Message(message)) => (1, message),
+        Err(Failure::NoDisplay(message)) => (3, message),
+    };
+    // A closed pipe is the only way for this to fail, and then nobody reads it.
+    let _ = writeln!(io::stderr(), "majorant: {message}");
+    ExitCode::from(code)
+}
+
+/// Prints a line to standard output; a reader that has gone away is not an error.
+pub(crate) fn print_line(text: &str) -> Result<(), Failure> {
+    match writeln!(io::stdout(), "{text}") {
+        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}

@@ -1,0 +1,40 @@
+//! A progress bar on a terminal, nothing in a pipe.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use majorant_core::film::Snapshot;
+use std::io::IsTerminal;
+
+/// Shows how far a render is, by samples or by seconds.
+pub(super) struct Progress {
+    bar: ProgressBar,
+    spp: Option<u32>,
+    seconds: Option<f32>,
+}
+
+impl Progress {
+    pub fn new(spp: Option<u32>, seconds: Option<f32>) -> Self {
+        let bar = ProgressBar::new(1000);
+        bar.set_draw_target(if std::io::stderr().is_terminal() {
+            ProgressDrawTarget::stderr()
+        } else {
+            ProgressDrawTarget::hidden()
+        });
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}  {msg}") {
+            bar.set_style(style);
+        }
+        Self { bar, spp, seconds }
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of 1000")]
+    pub fn show(&self, snapshot: &Snapshot) {
+        let by_samples = self.spp.map_or(0.0, |spp| f64::from(snapshot.spp) / f64::from(spp));
+        let by_time = self.seconds.map_or(0.0, |s| snapshot.seconds / f64::from(s));
+        let done = by_samples.max(by_time).clamp(0.0, 1.0);
+        self.bar.set_position((done * 1000.0) as u64);
+        self.bar.set_message(format!("{} spp", snapshot.spp));
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,166 @@
+//! `majorant render`: the same session as the window, without a window.
+
+use super::progress::Progress;
+use super::{Failure, print_line, source};
+use majorant_core::film::Snapshot;
+use majorant_core::io::{export, scene_file};
+use majorant_core::scene::SceneDoc;
+use majorant_core::session::{Job, Session, Status, ViewId};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc;
+
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+A limit that is given (--spp, --seconds) replaces both limits of the scene.
+--set reaches every key of the scene file: --set estimator.mode=rgb, --set lights.0.scale=3,
+--set 'medium.extinction=\"430:8, 540:40\"'.
+
+--json ends with one line: estimator, mode, width, height, spp, seconds, cpu_seconds, paths, lookups,
+mean [r,g,b], non_finite, threads, seed.")]
+pub(super) struct Arguments {
+    /// A scene file, or the name of an embedded scene.
+    scene: String,
+    /// Where the result goes: .exr (linear, with standard errors) or .png (as shown). Repeatable.
+    #[arg(short, long, value_name = "FILE", required_unless_present = "json")]
+    output: Vec<PathBuf>,
+    /// An id that `majorant estimators` lists.
+    #[arg(long, value_name = "ID")]
+    estimator: Option<String>,
+    /// Samples per pixel.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    spp: Option<u32>,
+    /// Stop after this many seconds.
+    #[arg(long, value_name = "S")]
+    seconds: Option<f32>,
+    /// Image size in pixels.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Selects the random numbers.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Worker threads; by default one per core.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Most path segments: 1 is emission only, 2 single scattering.
+    #[arg(long, value_name = "N")]
+    max_depth: Option<u32>,
+    /// Sets any key of the scene. Repeatable.
+    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
+    set: Vec<String>,
+    /// Print what was done as one line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    sides
+        .and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]))
+        .ok_or_else(|| format!("`{text}` is not a size: write WIDTHxHEIGHT, e.g. 256x256"))
+}
+
+impl Arguments {
+    /// The overrides of the other options, as assignments to keys of the scene.
+    fn assignments(&self) -> Vec<String> {
+        let mut all = self.set.clone();
+        let mut add = |key: &str, value: Option<String>| {
+            all.extend(value.map(|v| format!("{key}={v}")));
+        };
+        add("estimator.id", self.estimator.as_ref().map(|id| format!("{id:?}")));
+        add("estimator.max_depth", self.max_depth.map(|n| n.to_string()));
+        add("film.width", self.size.map(|s| s[0].to_string()));
+        add("film.height", self.size.map(|s| s[1].to_string()));
+        add("render.seed", self.seed.map(|n| n.to_string()));
+        add("render.threads", self.threads.map(|n| n.to_string()));
+        all
+    }
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    for path in &arguments.output {
+        writer(path)?;
+    }
+    let source = source::load(&arguments.scene)?;
+    let mut doc = scene_file::override_keys(&source.doc, &arguments.assignments())?;
+    if arguments.spp.is_some() || arguments.seconds.is_some() {
+        (doc.render.spp, doc.render.seconds) = (arguments.spp, arguments.seconds);
+    }
+    if doc.render.spp.is_none() && doc.render.seconds.is_none() {
+        return Err(Failure::Message("the render would never end: give --spp or --seconds".into()));
+    }
+    if let Some(problem) = majorant_core::scene::validate(&doc).first() {
+        return Err(Failure::Message(problem.to_string()));
+    }
+
+    let doc = Arc::new(doc);
+    let snapshot = render(Arc::clone(&doc), source.library)?;
+    for path in &arguments.output {
+        writer(path)?(path, &snapshot, &doc)?;
+    }
+    if arguments.json {
+        print_line(&summary(&snapshot, &doc).to_string())?;
+    }
+    Ok(())
+}
+
+type Writer = fn(&Path, &Snapshot, &SceneDoc) -> Result<(), export::ExportError>;
+
+/// How to write a file, by its ending; asked before anything is rendered.
+fn writer(path: &Path) -> Result<Writer, Failure> {
+    match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
+        Some("exr") => Ok(export::write_exr),
+        Some("png") => Ok(|path, snapshot, doc| export::write_png(path, snapshot, &doc.view)),
+        _ => Err(Failure::Message(format!(
+            "{}: give the result an ending of .exr or .png",
+            path.display()
+        ))),
+    }
+}
+
+fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc<Snapshot>, Failure> {
+    let progress = Progress::new(doc.render.spp, doc.render.seconds);
+    // One waiting wake-up is enough: the state is read anew at each.
+    let (wake, woken) = mpsc::sync_channel::<()>(1);
+    let session = Session::new(library, move || {
+        let _ = wake.try_send(());
+    })?;
+    let view = ViewId(0);
+    session.submit(view, Job { doc, preview: false });
+    loop {
+        let state = session.state(view);
+        if let Some(snapshot) = &state.snapshot {
+            progress.show(snapshot);
+        }
+        match (state.status, state.snapshot) {
+            (Status::Failed(message), _) => return Err(Failure::Message(message)),
+            (Status::Finished, Some(snapshot)) => {
+                progress.finish();
+                for notice in state.notices {
+                    use std::io::Write;
+                    let _ = writeln!(std::io::stderr(), "majorant: note: {notice}");
+                }
+                return Ok(snapshot);
+            }
+            _ => woken.recv()?,
+        }
+    }
+}
+
+fn summary(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
+    serde_json::json!({
+        "estimator": doc.estimator.id,
+        "mode": doc.estimator.mode,
+        "width": snapshot.width,
+        "height": snapshot.height,
+        "spp": snapshot.spp,
+        "seconds": snapshot.seconds,
+        "cpu_seconds": snapshot.cpu_seconds,
+        "paths": snapshot.tally.paths,
+        "lookups": snapshot.tally.lookups,
+        "mean": snapshot.mean_colour(),
+        "non_finite": snapshot.tally.non_finite,
+        "threads": snapshot.threads,
+        "seed": doc.render.seed,
+    })
+}

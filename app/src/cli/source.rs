@@ -1,0 +1,31 @@
+//! Where a SCENE argument comes from: a file, or an embedded name.
+
+use super::Failure;
+use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::scene::SceneDoc;
+use std::path::Path;
+
+/// A scene with the library that resolves its files.
+pub(super) struct Source {
+    pub doc: SceneDoc,
+    pub library: Library,
+}
+
+/// Loads a scene by embedded name or path; an existing file comes first.
+pub(super) fn load(scene: &str) -> Result<Source, Failure> {
+    let path = Path::new(scene);
+    if path.exists() {
+        let doc = scene_file::load(path)?;
+        let library = Library::default().with_base(path.parent().unwrap_or(Path::new("")));
+        return Ok(Source { doc, library });
+    }
+    if let Some(embedded) = embedded::find(scene) {
+        let doc = scene_file::parse(embedded.toml, embedded.name)?;
+        return Ok(Source { doc, library: Library::default() });
+    }
+    let names: Vec<_> = embedded::SCENES.iter().map(|s| s.name).collect();
+    Err(Failure::Message(format!(
+        "there is no file `{scene}`, and no embedded scene of that name; embedded are {}",
+        names.join(", ")
+    )))
+}

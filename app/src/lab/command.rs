@@ -1,0 +1,89 @@
+//! Everything that the window can be asked to do. Widgets push commands; `logic` carries them out.
+
+use crate::model::Source;
+use egui::ThemePreference;
+use majorant_core::scene::SceneDoc;
+use std::path::PathBuf;
+
+/// What a file is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// A scene to open.
+    OpenScene,
+    /// A volume that becomes the medium's density, fitted to the origin.
+    OpenVolume,
+    /// The density file of the medium as it is placed.
+    DensityFile,
+    /// The picture of the environment map with this index.
+    EnvironmentMap(usize),
+    /// Where to save the scene.
+    SaveScene,
+    /// Where to write the linear picture.
+    ExportExr,
+    /// Where to write the picture as it is shown.
+    ExportPng,
+}
+
+/// How a question about unsaved changes was answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Save, then go on.
+    Save,
+    /// Go on without saving.
+    Discard,
+    /// Do not go on.
+    Cancel,
+}
+
+/// A request to the window.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Replaces the document by an edited one.
+    Edit(Box<SceneDoc>),
+    /// Takes the last edit back.
+    Undo,
+    /// Does it again.
+    Redo,
+    /// Opens a scene, after asking about unsaved changes.
+    Open(Source),
+    /// Takes a file for what its extension says.
+    OpenAny(PathBuf),
+    /// Asks for a file.
+    Ask(Purpose),
+    /// A file was chosen.
+    Chosen(Purpose, PathBuf),
+    /// Closes whatever is being asked.
+    CloseDialog,
+    /// The answer to the question about unsaved changes.
+    Answer(Answer),
+    /// Saves to the scene's own file, or asks for one.
+    Save,
+    /// Pauses or goes on.
+    TogglePause,
+    /// One pass while paused.
+    Step,
+    /// Starts over.
+    Restart,
+    /// Fits the picture to the canvas.
+    Fit,
+    /// Shows the picture at this many points per pixel.
+    Zoom(f32),
+    /// Moves the exposure by stops.
+    Expose(f32),
+    /// Shows or hides the left column.
+    ToggleSceneColumn,
+    /// Shows or hides the right column.
+    ToggleMethodColumn,
+    /// Shows or hides the list of shortcuts.
+    ToggleShortcuts,
+    /// Lobes with a logarithmic or linear radius.
+    ToggleLogLobe,
+    /// Switches the theme.
+    Theme(ThemePreference),
+    /// Lists the grids of a file as the document names it.
+    ListGrids(String),
+    /// Removes the message with this number.
+    Dismiss(u64),
+    /// Ends the program, after asking about unsaved changes.
+    Quit,
+}

@@ -1,0 +1,94 @@
+//! Keyboard and mouse: one table for the keys, which the help window and the menus read too.
+
+use super::Command;
+use super::command::Purpose;
+use egui::{Context, Key, KeyboardShortcut, Modifiers};
+
+/// A key and what it does.
+pub struct Shortcut {
+    /// The keys.
+    pub keys: KeyboardShortcut,
+    /// What it does, for the help window.
+    pub text: &'static str,
+    command: fn() -> Command,
+}
+
+const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(modifiers, key)
+}
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// Every key. Where one is another plus Shift, the one with Shift comes first, for egui ignores extra
+/// Shift keys.
+pub const KEYS: &[Shortcut] = &[
+    Shortcut { keys: key(CTRL, Key::N), text: "New scene", command: || Command::Open(crate::model::Source::New) },
+    Shortcut { keys: key(CTRL, Key::O), text: "Open scene", command: || Command::Ask(Purpose::OpenScene) },
+    Shortcut { keys: key(CTRL_SHIFT, Key::O), text: "Open volume", command: || Command::Ask(Purpose::OpenVolume) },
+    Shortcut { keys: key(CTRL, Key::S), text: "Save scene", command: || Command::Save },
+    Shortcut { keys: key(CTRL_SHIFT, Key::S), text: "Save scene as", command: || Command::Ask(Purpose::SaveScene) },
+    Shortcut { keys: key(CTRL, Key::E), text: "Export EXR", command: || Command::Ask(Purpose::ExportExr) },
+    Shortcut { keys: key(CTRL_SHIFT, Key::E), text: "Export PNG", command: || Command::Ask(Purpose::ExportPng) },
+    Shortcut { keys: key(CTRL, Key::Z), text: "Undo", command: || Command::Undo },
+    Shortcut { keys: key(CTRL_SHIFT, Key::Z), text: "Redo", command: || Command::Redo },
+    Shortcut { keys: key(CTRL, Key::Y), text: "Redo", command: || Command::Redo },
+    Shortcut { keys: key(CTRL, Key::Q), text: "Quit", command: || Command::Quit },
+    Shortcut { keys: key(Modifiers::NONE, Key::P), text: "Pause or resume", command: || Command::TogglePause },
+    Shortcut { keys: key(Modifiers::NONE, Key::Period), text: "Step, while paused", command: || Command::Step },
+    Shortcut { keys: key(Modifiers::NONE, Key::R), text: "Restart", command: || Command::Restart },
+    Shortcut { keys: key(Modifiers::NONE, Key::E), text: "Half a stop brighter", command: || Command::Expose(0.5) },
+    Shortcut { keys: key(Modifiers::SHIFT, Key::E), text: "Half a stop darker", command: || Command::Expose(-0.5) },
+    Shortcut { keys: key(Modifiers::NONE, Key::F), text: "Fit the picture", command: || Command::Fit },
+    Shortcut { keys: key(Modifiers::NONE, Key::Num1), text: "Picture at 100 %", command: || Command::Zoom(1.0) },
+    Shortcut { keys: key(Modifiers::NONE, Key::OpenBracket), text: "Left column", command: || Command::ToggleSceneColumn },
+    Shortcut { keys: key(Modifiers::NONE, Key::CloseBracket), text: "Right column", command: || Command::ToggleMethodColumn },
+    Shortcut { keys: key(Modifiers::NONE, Key::F1), text: "This list  (also ?)", command: || Command::ToggleShortcuts },
+];
+
+/// Gestures on the picture and in panels, for the help window.
+pub const GESTURES: &[(&str, &str)] = &[
+    ("Left drag", "Orbit the camera"),
+    ("Right drag, Shift + drag", "Move the camera sideways"),
+    ("Ctrl or Alt + wheel", "Camera closer or away"),
+    ("Wheel", "Zoom the picture at the pointer"),
+    ("Middle drag, Space + drag", "Move the picture"),
+    ("Double click", "Fit the picture"),
+    ("Drag a number", "Change it; Shift is finer"),
+    ("Click a number", "Type it, with or without its unit"),
+    ("Right click a number", "As opened, or its default"),
+    ("Double click a plot", "Add a control point"),
+    ("Right click a point, Delete", "Remove it"),
+];
+
+/// The keys of a command, as menus show them.
+#[must_use]
+pub fn keys_of(ctx: &Context, command: &Command) -> String {
+    KEYS.iter()
+        .find(|shortcut| (shortcut.command)() == *command)
+        .map_or_else(String::new, |shortcut| ctx.format_shortcut(&shortcut.keys))
+}
+
+/// The commands of the keys that were pressed since the last frame.
+#[must_use]
+pub fn pressed(ctx: &Context) -> Vec<Command> {
+    let typing = ctx.text_edit_focused();
+    ctx.input_mut(|input| {
+        let question = input.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"));
+        let mut commands: Vec<Command> = KEYS
+            .iter()
+            .filter(|s| !typing || s.keys.modifiers.command)
+            // Fields have their own undo while they are edited.
+            .filter(|s| !typing || !matches!(s.keys.logical_key, Key::Z | Key::Y))
+            .filter(|s| {
+                let exact = input.modifiers.matches_exact(s.keys.modifiers);
+                exact && input.consume_key(s.keys.modifiers, s.keys.logical_key)
+            })
+            .map(|s| (s.command)())
+            .collect();
+        if question && !typing {
+            commands.push(Command::ToggleShortcuts);
+        }
+        commands
+    })
+}

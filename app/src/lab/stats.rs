@@ -1,0 +1,147 @@
+//! Rates and estimates that people read, derived from a session's state.
+
+use majorant_core::scene::RenderDoc;
+use majorant_core::session::ViewState;
+
+/// See the [module](self).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stats {
+    /// Samples per pixel in the newest picture.
+    pub spp: u32,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// Samples per pixel and second.
+    pub spp_per_second: Option<f64>,
+    /// Look-ups of the medium per second.
+    pub lookups_per_second: Option<f64>,
+    /// Look-ups of the medium per path.
+    pub lookups_per_path: Option<f64>,
+    /// Share of the way to the nearest limit, 0 to 1.
+    pub progress: Option<f32>,
+    /// Time to the nearest limit.
+    pub eta_seconds: Option<f64>,
+    /// Samples that were not finite.
+    pub non_finite: u64,
+}
+
+impl Stats {
+    /// Reads them off a state and the limits that hold for it.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
+    pub fn new(state: &ViewState, limits: &RenderDoc) -> Self {
+        // A picture of an older submission says nothing about this one.
+        let Some(snapshot) = state.snapshot.as_ref().filter(|s| s.generation == state.generation) else {
+            return Self::default();
+        };
+        let per = |amount: f64, of: f64| (amount > 0.0 && of > 0.0).then(|| amount / of);
+        let (spp, seconds) = (f64::from(snapshot.spp), snapshot.seconds);
+        let spp_per_second = per(spp, seconds);
+        let lookups = snapshot.tally.lookups as f64;
+        let by_samples = limits.spp.map(|limit| (spp / f64::from(limit.max(1)), spp_per_second.map(|rate| (f64::from(limit) - spp) / rate)));
+        let by_time = limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
+        let limits = [by_samples, by_time];
+        let progress = limits.iter().flatten().map(|(progress, _)| *progress).reduce(f64::max);
+        let eta = limits.iter().flatten().filter_map(|(_, eta)| *eta).reduce(f64::min);
+        Self {
+            spp: snapshot.spp,
+            seconds,
+            spp_per_second,
+            lookups_per_second: per(lookups, seconds),
+            lookups_per_path: per(lookups, snapshot.tally.paths as f64),
+            #[allow(clippy::cast_possible_truncation, reason = "between 0 and 1")]
+            progress: progress.map(|p| p.clamp(0.0, 1.0) as f32),
+            eta_seconds: eta.map(|eta| eta.max(0.0)),
+            non_finite: snapshot.tally.non_finite,
+        }
+    }
+}
+
+/// `12.3 M`: three significant digits and a metric prefix.
+#[must_use]
+pub fn count(value: f64) -> String {
+    let (scaled, prefix) = match value.abs() {
+        v if v >= 1e9 => (value / 1e9, " G"),
+        v if v >= 1e6 => (value / 1e6, " M"),
+        v if v >= 1e4 => (value / 1e3, " k"),
+        _ => (value, ""),
+    };
+    let decimals = match scaled.abs() {
+        v if v >= 99.95 => 0,
+        v if v >= 9.995 => 1,
+        _ => 2,
+    };
+    format!("{scaled:.decimals$}{prefix}")
+}
+
+/// `12.3 s`, `4 min 05 s` or `2 h 07 min`.
+#[must_use]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, below 2^53")]
+pub fn duration(seconds: f64) -> String {
+    let whole = seconds.max(0.0).round() as u64;
+    match whole {
+        0..60 => format!("{:.1} s", seconds.max(0.0)),
+        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole / 60 % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::film::{Snapshot, Tally};
+    use majorant_core::session::Status;
+    use std::sync::Arc;
+
+    fn state(spp: u32, seconds: f64) -> ViewState {
+        let snapshot = Snapshot {
+            generation: 3,
+            width: 2,
+            height: 1,
+            mean: vec![[0.0; 3]; 2],
+            standard_error: vec![[0.0; 3]; 2],
+            spp,
+            coarse: None,
+            seconds,
+            cpu_seconds: seconds,
+            tally: Tally { paths: 2 * u64::from(spp), lookups: 20 * u64::from(spp), ..Tally::default() },
+            threads: 1,
+        };
+        ViewState {
+            generation: 3,
+            status: Status::Rendering,
+            snapshot: Some(Arc::new(snapshot)),
+            notices: Vec::new(),
+            first_picture_seconds: None,
+            scene: None,
+        }
+    }
+
+    #[test]
+    fn the_nearest_limit_counts() {
+        let limits = RenderDoc { spp: Some(100), seconds: Some(4.0), ..RenderDoc::default() };
+        let stats = Stats::new(&state(10, 2.0), &limits);
+        assert_eq!(stats.spp_per_second, Some(5.0));
+        assert_eq!(stats.lookups_per_path, Some(10.0));
+        assert_eq!(stats.progress, Some(0.5));
+        assert_eq!(stats.eta_seconds, Some(2.0));
+        let endless = RenderDoc { spp: None, seconds: None, ..limits };
+        assert_eq!(Stats::new(&state(10, 2.0), &endless).eta_seconds, None);
+    }
+
+    #[test]
+    fn an_old_picture_has_no_rates() {
+        let mut old = state(10, 2.0);
+        old.generation = 4;
+        assert_eq!(Stats::new(&old, &RenderDoc::default()), Stats::default());
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(count(1.5), "1.50");
+        assert_eq!(count(12_345.0), "12.3 k");
+        assert_eq!(count(123_456_789.0), "123 M");
+        assert_eq!(duration(5.25), "5.2 s");
+        assert_eq!(duration(245.0), "4 min 05 s");
+        assert_eq!(duration(7620.0), "2 h 07 min");
+    }
+}

@@ -1,0 +1,146 @@
+//! Work that would make a frame wait: file dialogs, listing grids, writing pictures.
+//! Each runs on a named thread and answers with one [`Outcome`] that `logic` picks up.
+
+use super::Purpose;
+use majorant_core::film::Snapshot;
+use majorant_core::io::{export, volume};
+use majorant_core::scene::SceneDoc;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// What a task came to.
+#[derive(Debug)]
+pub enum Outcome {
+    /// A file dialog closed: with a file, or without one (cancelled, or no portal to show it).
+    Picked(Purpose, Option<PathBuf>),
+    /// The grids of a file, or what is wrong with it. The text is the name in the document.
+    Listed(String, Result<Vec<String>, String>),
+    /// A dropped or opened volume was looked into.
+    Volume(PathBuf, Result<(), String>),
+    /// A picture was written.
+    Exported(PathBuf, Result<(), String>),
+}
+
+/// Tasks that run and answers that wait.
+pub struct Tasks {
+    sender: Sender<Outcome>,
+    receiver: Receiver<Outcome>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl Tasks {
+    /// No tasks yet; `wake` is called after each.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let (sender, receiver) = channel();
+        Self { sender, receiver, wake: Arc::new(wake) }
+    }
+
+    /// An answer that came in.
+    pub fn take(&self) -> Option<Outcome> {
+        self.receiver.try_recv().ok()
+    }
+
+    fn spawn(&self, name: &str, work: impl FnOnce() -> Outcome + Send + 'static) -> Result<(), String> {
+        let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
+        let run = move || {
+            // The window may be gone by now; then nobody wants the answer.
+            let _ = sender.send(work());
+            wake();
+        };
+        let spawned = std::thread::Builder::new().name(format!("majorant-{name}")).spawn(run);
+        spawned.map(|_| ()).map_err(|error| format!("Cannot start a thread for {name}: {error}"))
+    }
+
+    /// Shows the desktop's file dialog.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn pick(&self, purpose: Purpose, directory: &Path) -> Result<(), String> {
+        let directory = directory.to_owned();
+        self.spawn("dialog", move || Outcome::Picked(purpose, dialog(purpose, &directory)))
+    }
+
+    /// Lists the grids of a volume file.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn list(&self, named: String, path: PathBuf) -> Result<(), String> {
+        self.spawn("grids", move || Outcome::Listed(named, names(&path)))
+    }
+
+    /// Looks into a volume before the document is changed for it.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn look_into(&self, path: PathBuf) -> Result<(), String> {
+        self.spawn("volume", move || {
+            let found = names(&path).map(|_| ());
+            Outcome::Volume(path, found)
+        })
+    }
+
+    /// Writes a picture: PNG as shown, or EXR with all the numbers.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn export(&self, png: bool, path: PathBuf, snapshot: Arc<Snapshot>, doc: SceneDoc) -> Result<(), String> {
+        self.spawn("export", move || {
+            let written = match png {
+                true => export::write_png(&path, &snapshot, &doc.view).map_err(|e| e.to_string()),
+                false => export::write_exr(&path, &snapshot, &doc).map_err(|e| e.to_string()),
+            };
+            Outcome::Exported(path, written)
+        })
+    }
+}
+
+fn names(path: &Path) -> Result<Vec<String>, String> {
+    let grids = volume::list_grids(path).map_err(|error| error.to_string())?;
+    Ok(grids.into_iter().map(|grid| grid.name).collect())
+}
+
+fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
+    let dialog = rfd::FileDialog::new().set_directory(directory);
+    let (title, filter, extensions, default): (_, _, &[&str], _) = match purpose {
+        Purpose::OpenScene => ("Open scene", "Scenes", &["toml"], ""),
+        Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Volumes", &["vdb", "npy", "vol"], ""),
+        Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
+        Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
+        Purpose::ExportExr => ("Export EXR", "OpenEXR", &["exr"], "render.exr"),
+        Purpose::ExportPng => ("Export PNG", "PNG", &["png"], "render.png"),
+    };
+    let dialog = dialog.set_title(title).add_filter(filter, extensions);
+    if default.is_empty() { dialog.pick_file() } else { dialog.set_file_name(default).save_file() }
+}
+
+/// Names of the grids in files, by the name that the document has for the file.
+#[derive(Clone, Debug, Default)]
+pub struct GridLists(BTreeMap<String, Option<Vec<String>>>);
+
+impl GridLists {
+    /// Whether the file was listed or is being listed.
+    #[must_use]
+    pub fn is_listed(&self, file: &str) -> bool {
+        self.0.contains_key(file)
+    }
+
+    /// The names, once they are known.
+    #[must_use]
+    pub fn names(&self, file: &str) -> Option<&[String]> {
+        self.0.get(file)?.as_deref().filter(|names| !names.is_empty())
+    }
+
+    pub(super) fn begin(&mut self, file: &str) {
+        self.0.insert(file.to_owned(), None);
+    }
+
+    pub(super) fn finish(&mut self, file: String, names: Vec<String>) {
+        self.0.insert(file, Some(names));
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+}

@@ -1,0 +1,62 @@
+//! What the window remembers between runs.
+
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Preferences and recent files; stored by eframe beside the window's geometry.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// The chosen theme.
+    pub theme: egui::ThemePreference,
+    /// Scene files, newest first.
+    pub recent: Vec<PathBuf>,
+    /// Whether the left column (scene) is shown.
+    pub scene_column: bool,
+    /// Whether the right column (method) is shown.
+    pub method_column: bool,
+    /// Phase function lobes on a logarithmic radius.
+    pub log_lobe: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            theme: egui::ThemePreference::Dark,
+            recent: Vec::new(),
+            scene_column: true,
+            method_column: true,
+            log_lobe: false,
+        }
+    }
+}
+
+impl Settings {
+    /// Where eframe's storage keeps them.
+    pub const KEY: &'static str = "majorant-settings";
+    const RECENT: usize = 10;
+
+    /// Puts a file at the head of the recent ones.
+    pub fn remember(&mut self, path: &Path) {
+        self.recent.retain(|known| known != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(Self::RECENT);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recent_files_are_few_and_distinct() {
+        let mut settings = Settings::default();
+        for i in 0..20 {
+            settings.remember(Path::new(&format!("{i}.toml")));
+        }
+        settings.remember(Path::new("15.toml"));
+        assert_eq!(settings.recent.len(), 10);
+        assert_eq!(settings.recent[0], Path::new("15.toml"));
+        assert_eq!(settings.recent.iter().filter(|p| p.ends_with("15.toml")).count(), 1);
+    }
+}

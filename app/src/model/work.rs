@@ -1,0 +1,61 @@
+//! What an edit costs: found by comparing documents, so that no widget has to remember it.
+
+use majorant_core::scene::SceneDoc;
+
+/// The least work that brings a picture up to date with an edited document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Work {
+    /// The picture is up to date; at most it is shown differently.
+    None,
+    /// Only the limits moved: rendering goes on or stops, and no sample is lost.
+    Limits,
+    /// The estimate itself changed: start over.
+    Render,
+}
+
+/// What turning `before` into `after` needs.
+#[must_use]
+pub fn work_after(before: &SceneDoc, after: &SceneDoc) -> Work {
+    let estimate_changed = before.camera != after.camera
+        || before.film != after.film
+        || before.medium != after.medium
+        || before.lights != after.lights
+        || before.objects != after.objects
+        || before.estimator != after.estimator
+        || before.render.seed != after.render.seed
+        || before.render.threads != after.render.threads;
+    if estimate_changed {
+        Work::Render
+    } else if before.render != after.render {
+        Work::Limits
+    } else {
+        Work::None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::scene::ToneCurve;
+
+    #[test]
+    fn only_what_changes_the_estimate_renders_again() {
+        let doc = SceneDoc::default();
+        let after = |edit: fn(&mut SceneDoc)| {
+            let mut edited = doc.clone();
+            edit(&mut edited);
+            work_after(&doc, &edited)
+        };
+        assert_eq!(after(|_| ()), Work::None);
+        assert_eq!(after(|d| d.view.exposure_ev += 1.0), Work::None);
+        assert_eq!(after(|d| d.view.tone = ToneCurve::Linear), Work::None);
+        assert_eq!(after(|d| d.title = "x".into()), Work::None);
+        assert_eq!(after(|d| d.render.spp = None), Work::Limits);
+        assert_eq!(after(|d| d.render.seconds = Some(3.0)), Work::Limits);
+        assert_eq!(after(|d| d.render.seed = 7), Work::Render);
+        assert_eq!(after(|d| d.render.threads = Some(1)), Work::Render);
+        assert_eq!(after(|d| d.medium.majorant.factor = 2.0), Work::Render);
+        assert_eq!(after(|d| d.lights.clear()), Work::Render);
+        assert_eq!(after(|d| d.camera.fov_deg = 20.0), Work::Render);
+    }
+}

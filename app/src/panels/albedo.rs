@@ -1,0 +1,45 @@
+//! Albedo by wavelength: the share of collisions that scatter.
+
+use super::{Column, Cx, Panel, extinction};
+use crate::widgets::{SpectrumField, hint, spectrum_editor};
+use egui::Ui;
+
+/// See the [module](self).
+pub struct Albedo;
+
+impl Panel for Albedo {
+    fn id(&self) -> &'static str {
+        "albedo"
+    }
+    fn title(&self) -> &'static str {
+        "Albedo"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        match &cx.draft.medium.albedo_grid {
+            Some(_) => "RGB grid".into(),
+            None => extinction::in_words(&cx.draft.medium.albedo),
+        }
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        if let Some(grid) = &cx.draft.medium.albedo_grid {
+            hint(ui, &format!("The RGB grid {} is used instead of a spectrum.", grid.file));
+            if ui.button("Use the spectrum").clicked() {
+                cx.draft.medium.albedo_grid = None;
+            }
+            return;
+        }
+        let field = SpectrumField {
+            name: "Albedo",
+            unit: "",
+            max: Some(1.0),
+            tip: "α(λ) = σs / σt: the share of extinguished light that is scattered, not absorbed",
+            opened: &cx.opened.medium.albedo,
+            majorant: None,
+        };
+        spectrum_editor(ui, &field, &mut cx.draft.medium.albedo);
+    }
+}

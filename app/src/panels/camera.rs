@@ -1,0 +1,74 @@
+//! Camera and image size.
+
+use super::{Column, Cx, Panel};
+use crate::widgets::{Value, hint, row, vector};
+use egui::{DragValue, Ui, vec2};
+use majorant_core::scene::CameraDoc;
+
+/// See the [module](self).
+pub struct Camera;
+
+/// Sizes that are one click away.
+const SIZES: &[[u32; 2]] = &[[320, 180], [640, 360], [960, 540], [1280, 720], [1920, 1080], [512, 512]];
+
+impl Panel for Camera {
+    fn id(&self) -> &'static str {
+        "camera"
+    }
+    fn title(&self) -> &'static str {
+        "Camera"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        format!("{} × {}", cx.draft.film.width, cx.draft.film.height)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let camera = &mut cx.draft.camera;
+        vector(ui, "Stands at", "Camera origin", &mut camera.origin, 0.01, "", "Where the camera is");
+        vector(ui, "Looks at", "Camera target", &mut camera.target, 0.01, "", "What orbiting turns about");
+        vector(ui, "Up", "Camera up", &mut camera.up, 0.01, "", "Which way is up");
+        Value::new("Field of view", &mut camera.fov_deg, CameraDoc::default().fov_deg)
+            .opened(cx.opened.camera.fov_deg)
+            .unit("°")
+            .range(1.0..=150.0)
+            .speed(0.2)
+            .tip("Horizontal field of view")
+            .show(ui);
+        size_ui(ui, cx);
+        if cx.draft.camera != cx.opened.camera && ui.small_button("↺  Camera as opened").clicked() {
+            cx.draft.camera = cx.opened.camera.clone();
+        }
+        hint(ui, "In the picture: drag orbits, Shift or right drag moves sideways, Ctrl + wheel comes closer.");
+    }
+}
+
+fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    row(ui, "Image size", "Pixels; the render starts over when they change", |ui, _| {
+        let film = &mut cx.draft.film;
+        let width = (ui.available_width() - 86.0) * 0.5;
+        let mut side = |ui: &mut Ui, value: &mut u32, name: &str| {
+            let drag = DragValue::new(value)
+                .range(1..=16_384_u32)
+                .speed(2.0)
+                .update_while_editing(false)
+                .min_size(vec2(width, ui.spacing().interact_size.y));
+            ui.add(drag).accessible_name(name);
+        };
+        side(ui, &mut film.width, "Image width");
+        ui.weak("×");
+        side(ui, &mut film.height, "Image height");
+        ui.menu_button("▼", |ui| {
+            for [w, h] in SIZES.iter().copied() {
+                if ui.selectable_label([film.width, film.height] == [w, h], format!("{w} × {h}")).clicked() {
+                    (film.width, film.height) = (w, h);
+                    ui.close();
+                }
+            }
+        })
+        .response
+        .accessible_name("Common image sizes");
+    });
+}

@@ -1,0 +1,118 @@
+//! Where the medium's density comes from, how dense it is, and where its box stands.
+
+use super::{Column, Cx, Panel, placement};
+use crate::lab::{Command, GridLists, Purpose};
+use crate::widgets::{Value, hint, path_field, row, segmented};
+use egui::{ComboBox, Ui};
+use majorant_core::scene::{DensityDoc, GridRef, MediumDoc};
+use std::path::Path;
+
+/// See the [module](self).
+pub struct Density;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Uniform,
+    Grid,
+    Rgb,
+}
+
+impl Panel for Density {
+    fn id(&self) -> &'static str {
+        "density"
+    }
+    fn title(&self) -> &'static str {
+        "Density"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        match cx.draft.medium.density.grid() {
+            None => "uniform cube".into(),
+            Some(grid) => {
+                Path::new(&grid.file).file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned())
+            }
+        }
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        Value::new("Scale", &mut cx.draft.medium.scale, MediumDoc::default().scale)
+            .opened(cx.opened.medium.scale)
+            .range(0.0..=f64::from(f32::MAX))
+            .logarithmic()
+            .named("Density scale")
+            .tip("Multiplies the density: σt(x, λ) = scale · density(x) · extinction(λ), per scene unit")
+            .show(ui);
+        source_ui(ui, cx);
+        if let Some(info) = cx.state.scene.as_ref()
+            && let Some([x, y, z]) = info.grid_size
+        {
+            #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
+            let megabytes = info.memory_bytes as f64 / 1e6;
+            hint(ui, &format!(
+                "{x} × {y} × {z} voxels, {megabytes:.1} MB. Density up to {:.3}, mean {:.3}.",
+                info.max_density, info.mean_density
+            ));
+        }
+        placement::placement_ui(ui, &mut cx.draft.medium.placement, &cx.opened.medium.placement);
+    }
+}
+
+fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    let density = &mut cx.draft.medium.density;
+    let mut kind = match density {
+        DensityDoc::Uniform => Kind::Uniform,
+        DensityDoc::Grid(_) => Kind::Grid,
+        DensityDoc::RgbGrid(_) => Kind::Rgb,
+    };
+    row(ui, "Source", "Where the density comes from", |ui, _| {
+        let options = [
+            (Kind::Uniform, "Uniform", "1 everywhere in a unit cube: a homogeneous medium"),
+            (Kind::Grid, "Grid", "A scalar grid from an OpenVDB, .npy or .vol file"),
+            (Kind::Rgb, "RGB grid", "Density times extinction per colour; the extinction spectrum is unused"),
+        ];
+        if segmented(ui, "Density source", &mut kind, &options) {
+            let grid = density.grid().cloned().unwrap_or_default();
+            *density = match kind {
+                Kind::Uniform => DensityDoc::Uniform,
+                Kind::Grid => DensityDoc::Grid(grid),
+                Kind::Rgb => DensityDoc::RgbGrid(grid),
+            };
+        }
+    });
+    let Cx { draft, grids, commands, .. } = cx;
+    if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut draft.medium.density {
+        grid_ui(ui, grid, grids, commands);
+    } else {
+        hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to fill the box with it.");
+    }
+}
+
+fn grid_ui(ui: &mut Ui, grid: &mut GridRef, lists: &GridLists, commands: &mut Vec<Command>) {
+    let tip = "OpenVDB, .npy or Mitsuba .vol; relative to the scene file";
+    if path_field(ui, "File", "density file", "cloud.vdb", &mut grid.file, tip) {
+        commands.push(Command::Ask(Purpose::DensityFile));
+    }
+    if grid.file.is_empty() {
+        hint(ui, "Choose a file, or drop one into the window.");
+        return;
+    }
+    let Some(names) = lists.names(&grid.file) else {
+        if !lists.is_listed(&grid.file) {
+            commands.push(Command::ListGrids(grid.file.clone()));
+        }
+        return;
+    };
+    row(ui, "Grid", "Which of the file's grids is used", |ui, label| {
+        let shown = grid.grid.clone().unwrap_or_else(|| "by default".into());
+        let combo = ComboBox::from_id_salt("grid").selected_text(shown).width(ui.available_width() - 26.0);
+        let response = combo.show_ui(ui, |ui| {
+            ui.selectable_value(&mut grid.grid, None, "by default");
+            for name in names {
+                ui.selectable_value(&mut grid.grid, Some(name.clone()), name);
+            }
+        });
+        response.response.labelled_by(label);
+    });
+}

@@ -1,0 +1,54 @@
+//! Extinction by wavelength: where the medium is coloured.
+
+use super::{Column, Cx, Panel};
+use crate::widgets::{SpectrumField, hint, spectrum_editor};
+use egui::Ui;
+use majorant_core::scene::DensityDoc;
+use majorant_core::spectrum::SpectrumDoc;
+
+/// See the [module](self).
+pub struct Extinction;
+
+/// A spectrum in a few words.
+pub(super) fn in_words(doc: &SpectrumDoc) -> String {
+    match doc {
+        SpectrumDoc::Constant(value) => crate::widgets::format_number(f64::from(*value)),
+        SpectrumDoc::Points { points, .. } => format!("{} points", points.len()),
+        SpectrumDoc::Rgb([r, g, b]) => format!("RGB {r:.2} {g:.2} {b:.2}"),
+        SpectrumDoc::Preset(id) => id.clone(),
+    }
+}
+
+impl Panel for Extinction {
+    fn id(&self) -> &'static str {
+        "extinction"
+    }
+    fn title(&self) -> &'static str {
+        "Extinction"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn starts_open(&self) -> bool {
+        true
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        in_words(&cx.draft.medium.extinction)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let medium = &mut cx.draft.medium;
+        if matches!(medium.density, DensityDoc::RgbGrid(_)) {
+            hint(ui, "The RGB grid carries its own extinction; this spectrum is unused.");
+        }
+        let field = SpectrumField {
+            name: "Extinction",
+            unit: "",
+            max: None,
+            tip: "σt(x, λ) = scale · density(x) · extinction(λ), per scene unit",
+            opened: &cx.opened.medium.extinction,
+            majorant: Some(&medium.majorant),
+        };
+        spectrum_editor(ui, &field, &mut medium.extinction);
+    }
+}

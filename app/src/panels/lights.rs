@@ -1,0 +1,115 @@
+//! The lights: a list to which kinds are added from their templates.
+
+use super::{Column, Cx, Panel, light_fields};
+use crate::theme::Palette;
+use crate::widgets::{callout, hint};
+use egui::{Button, Color32, RichText, Ui};
+use majorant_core::scene::LightDoc;
+
+/// See the [module](self).
+pub struct Lights;
+
+impl Panel for Lights {
+    fn id(&self) -> &'static str {
+        "lights"
+    }
+    fn title(&self) -> &'static str {
+        "Lights"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        let kinds: Vec<_> = cx.draft.lights.iter().map(|l| l.kind_name().to_lowercase()).collect();
+        match kinds.len() {
+            0 => "none".into(),
+            1..=2 => kinds.join(", "),
+            n => n.to_string(),
+        }
+    }
+    fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
+        cx.draft.lights.is_empty().then_some(palette.warning)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        if cx.draft.lights.is_empty() {
+            callout(ui, Palette::get(ui).warning, "No light: the image is black. Add one.");
+        }
+        let mut change = None;
+        for index in 0..cx.draft.lights.len() {
+            if let Some(made) = item_ui(ui, cx, index) {
+                change = Some((index, made));
+            }
+        }
+        match change {
+            Some((index, Change::Remove)) => {
+                cx.draft.lights.remove(index);
+            }
+            Some((index, Change::Duplicate)) => {
+                let copy = cx.draft.lights[index].clone();
+                cx.draft.lights.insert(index + 1, copy);
+            }
+            None => {}
+        }
+        add_ui(ui, "Add light", LightDoc::templates(), |light| cx.draft.lights.push(light));
+        if cx.draft.lights.len() > 1 {
+            hint(ui, "Each sample picks one light; all of them are seen by the camera if visible.");
+        }
+    }
+}
+
+/// What the buttons of a list item ask for.
+pub(super) enum Change {
+    Duplicate,
+    Remove,
+}
+
+/// A menu of templates.
+pub(super) fn add_ui<T>(ui: &mut Ui, name: &str, templates: Vec<(&'static str, T)>, mut add: impl FnMut(T)) {
+    ui.menu_button(format!("+  {name}"), |ui| {
+        for (kind, template) in templates {
+            if ui.button(kind).clicked() {
+                add(template);
+                ui.close();
+            }
+        }
+    });
+}
+
+/// The heading of a list item with its buttons, and its body while it is open.
+pub(super) fn card_ui(ui: &mut Ui, salt: &str, index: usize, title: &str, body: impl FnOnce(&mut Ui)) -> Option<Change> {
+    let mut change = None;
+    let number = index + 1;
+    let id = ui.make_persistent_id((salt, index));
+    let state = egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, true);
+    state
+        .show_header(ui, |ui| {
+            ui.label(RichText::new(format!("{number}  {title}")).strong());
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let mut button = |text: &str, verb: &str| {
+                    let name = format!("{verb} {salt} {number}");
+                    ui.add(Button::new(text).small()).on_hover_text(verb).accessible_name(name).clicked()
+                };
+                if button("×", "Remove") {
+                    change = Some(Change::Remove);
+                }
+                if button("⊕", "Duplicate") {
+                    change = Some(Change::Duplicate);
+                }
+            });
+        })
+        .body_unindented(body);
+    change
+}
+
+fn item_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) -> Option<Change> {
+    let Cx { draft, opened, commands, .. } = cx;
+    let light = draft.lights.get_mut(index)?;
+    let title = light.kind_name();
+    let before = opened.lights.get(index).filter(|l| l.kind_name() == title);
+    let made = card_ui(ui, "light", index, title, |ui| {
+        light_fields::light_ui(ui, light, before, index, commands);
+    });
+    ui.add_space(crate::theme::UNIT);
+    made
+}

@@ -1,0 +1,140 @@
+//! Progress, cost and limits of the render.
+
+use super::{Column, Cx, Panel};
+use crate::lab::Command;
+use crate::lab::stats::{count, duration};
+use crate::theme::Palette;
+use crate::widgets::{Value, badge, callout, hint, optional};
+use egui::{Button, Color32, Grid, RichText, Sense, Ui, vec2};
+use majorant_core::session::Status;
+
+/// See the [module](self).
+pub struct Render;
+
+impl Panel for Render {
+    fn id(&self) -> &'static str {
+        "render"
+    }
+    fn title(&self) -> &'static str {
+        "Render"
+    }
+    fn column(&self) -> Column {
+        Column::Method
+    }
+    fn starts_open(&self) -> bool {
+        true
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        format!("{} spp", cx.stats.spp)
+    }
+    fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
+        let failed = matches!(cx.state.status, Status::Failed(_)) || cx.stats.non_finite > 0;
+        failed.then_some(palette.error)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        buttons_ui(ui, cx);
+        progress_ui(ui, cx);
+        figures_ui(ui, cx);
+        trouble_ui(ui, cx);
+        limits_ui(ui, cx);
+    }
+}
+
+fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    let paused = cx.state.status == Status::Paused;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let width = ((ui.available_width() - 8.0) / 3.0).floor();
+        let mut button = |ui: &mut Ui, on: bool, text: &str, tip: &str, command: Command| {
+            let button = Button::new(text).min_size(vec2(width, 24.0));
+            if ui.add_enabled(on, button).on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
+                cx.commands.push(command);
+            }
+        };
+        let pausable = matches!(cx.state.status, Status::Rendering | Status::Paused | Status::Building);
+        let text = if paused { "Resume" } else { "Pause" };
+        button(ui, pausable, text, "Pause after the running pass, or go on  (P)", Command::TogglePause);
+        button(ui, paused, "Step", "While paused: one sample per pixel  (.)", Command::Step);
+        button(ui, true, "Restart", "Start over from sample 0  (R)", Command::Restart);
+    });
+}
+
+fn progress_ui(ui: &mut Ui, cx: &Cx<'_>) {
+    let palette = Palette::get(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 6.0), Sense::hover());
+    ui.painter().rect_filled(rect, 3.0, palette.well);
+    let colour = match cx.state.status {
+        Status::Finished => palette.good,
+        Status::Failed(_) => palette.error,
+        Status::Paused => palette.warning,
+        Status::Empty | Status::Building | Status::Rendering => palette.accent,
+    };
+    let progress = cx.stats.progress.unwrap_or(0.0);
+    ui.painter().rect_filled(rect.with_max_x(egui::lerp(rect.x_range(), progress)), 3.0, colour);
+    response.on_hover_text("Progress to the nearest limit");
+}
+
+fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
+    let stats = cx.stats;
+    let optional = |value: Option<f64>| value.map_or_else(|| "–".into(), count);
+    let limit = cx.draft.render.spp.map_or_else(String::new, |limit| format!(" / {limit}"));
+    let eta = stats.eta_seconds.map_or_else(|| "no limit".into(), duration);
+    let latency = cx.state.first_picture_seconds.map_or_else(|| "–".into(), |s| format!("{:.0} ms", 1e3 * s));
+    let figures = [
+        ("Samples / pixel", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
+        ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel and second"),
+        ("Look-ups", format!("{} /s", optional(stats.lookups_per_second)), "Evaluations of the medium's coefficients per second"),
+        ("per path", optional(stats.lookups_per_path), "Look-ups per path: what the majorant and the estimator cost"),
+        ("Time", duration(stats.seconds), "Time spent rendering, pauses left out"),
+        ("Left", eta, "Estimated time to the nearest limit"),
+        ("First picture", latency, "From the last edit to its first picture"),
+    ];
+    ui.add_space(2.0);
+    Grid::new("figures").num_columns(2).spacing([12.0, 2.0]).min_col_width(100.0).show(ui, |ui| {
+        for (label, value, tip) in figures {
+            ui.label(RichText::new(label).color(Palette::get(ui).weak)).on_hover_text(tip);
+            ui.label(RichText::new(value).monospace().color(Palette::get(ui).strong)).on_hover_text(tip);
+            ui.end_row();
+        }
+    });
+}
+
+fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
+    let palette = Palette::get(ui);
+    if cx.stats.non_finite > 0 {
+        let located = cx.state.snapshot.as_ref().map(|s| s.tally.located.as_slice()).unwrap_or_default();
+        let places: Vec<String> =
+            located.iter().map(|n| format!("pixel ({}, {}), sample {}", n.x, n.y, n.sample)).collect();
+        let tip = format!("Left out of the picture, never hidden. First of them:\n{}", places.join("\n"));
+        badge(ui, palette.error, &format!("{} samples not finite", cx.stats.non_finite)).on_hover_text(tip);
+    }
+    for notice in &cx.state.notices {
+        callout(ui, palette.warning, notice);
+    }
+}
+
+fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    let render = &mut cx.draft.render;
+    ui.add_space(crate::theme::UNIT);
+    let spp = "Rendering stops after this many samples per pixel; more can be added later";
+    optional(ui, "Stop at", &mut render.spp, 1024, "no sample limit", spp, |v| v.unit("spp").range(1.0..=1e9));
+    let seconds = "Rendering stops after this much time";
+    optional(ui, "Stop after", &mut render.seconds, 60.0, "no time limit", seconds, |v| {
+        v.unit("s").range(0.1..=1e6).logarithmic()
+    });
+    let title = RichText::new("Threads and seed").small();
+    egui::CollapsingHeader::new(title).id_salt("more").show_unindented(ui, |ui| {
+        let threads = "Worker threads; the picture does not depend on them";
+        optional(ui, "Threads", &mut render.threads, 1, "one per core", threads, |v| v.range(1.0..=1024.0));
+        Value::new("Seed", &mut render.seed, 0)
+            .opened(cx.opened.render.seed)
+            .range(0.0..=9e15)
+            .tip("Selects the random numbers; nothing else is random")
+            .show(ui);
+        if let Some(snapshot) = cx.state.snapshot.as_ref() {
+            let text = format!("{} threads, {} of CPU time.", snapshot.threads, duration(snapshot.cpu_seconds));
+            hint(ui, &text);
+        }
+    });
+}

@@ -1,0 +1,7 @@
+//! The picture: where it is on the canvas, how it becomes a texture, how the mouse moves the camera.
+
+pub mod camera_control;
+pub mod canvas;
+pub mod developer;
+pub mod image_view;
+pub mod readout;

@@ -1,0 +1,95 @@
+//! A phase function as a polar curve: where light goes that arrives from the left.
+
+use crate::theme::Palette;
+use egui::{Align2, FontId, Mesh, Painter, Pos2, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use majorant_core::phase::Phase;
+use std::f32::consts::{PI, TAU};
+
+/// Decades that the logarithmic radius spans.
+const DECADES: f32 = 3.0;
+const SAMPLES: u16 = 240;
+
+/// Mean cosine of a phase function, by quadrature: 2π ∫ p(μ) μ dμ.
+#[must_use]
+pub fn mean_cosine(phase: &Phase) -> f32 {
+    let n = 4000_u16;
+    let step = 2.0 / f32::from(n);
+    let sum: f32 = (0..n)
+        .map(|i| -1.0 + (f32::from(i) + 0.5) * step)
+        .map(|cosine| phase.value(cosine) * cosine)
+        .sum();
+    TAU * sum * step
+}
+
+/// Draws the lobe. `logarithmic` stretches the radius over three decades below the largest value.
+pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
+    let palette = Palette::get(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 148.0), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Phase function lobe"));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 2.0, palette.well);
+    let values: Vec<(f32, f32)> = (0..=SAMPLES)
+        .map(|i| TAU * f32::from(i) / f32::from(SAMPLES))
+        .map(|angle| (angle, phase.value(angle.cos())))
+        .collect();
+    let largest = values.iter().map(|(_, p)| *p).fold(f32::MIN_POSITIVE, f32::max);
+    let radius = |p: f32| match logarithmic {
+        true => (1.0 + (p / largest).max(1e-9).log10() / DECADES).max(0.0),
+        false => p / largest,
+    };
+    let curve: Vec<_> = values.iter().map(|(a, p)| vec2(a.cos(), -a.sin()) * radius(*p)).collect();
+    // The lobe, its origin and the arrow before it share the width, whatever the shape.
+    let left = curve.iter().map(|v| v.x).fold(0.0, f32::min) - 0.35;
+    let right = curve.iter().map(|v| v.x).fold(0.0, f32::max);
+    let half = curve.iter().map(|v| v.y.abs()).fold(0.0, f32::max).max(0.05);
+    let scale = ((rect.width() - 24.0) / (right - left)).min((rect.height() - 20.0) / (2.0 * half));
+    let origin = pos2(rect.center().x - 0.5 * (left + right) * scale, rect.center().y);
+    let outline: Vec<Pos2> = curve.iter().map(|v| origin + *v * scale).collect();
+
+    let isotropic = radius(1.0 / (4.0 * PI)) * scale;
+    let circle: Vec<Pos2> =
+        values.iter().map(|(a, _)| origin + vec2(a.cos(), a.sin()) * isotropic).collect();
+    painter.extend(Shape::dashed_line(&circle, Stroke::new(1.0, palette.line), 3.0, 3.0));
+    fill(&painter, origin, &outline, palette.accent.gamma_multiply(0.22));
+    painter.add(Shape::line(outline, Stroke::new(1.6, palette.accent)));
+    let tail = pos2(rect.left() + 10.0, origin.y);
+    painter.arrow(tail, origin - tail - vec2(4.0, 0.0), Stroke::new(1.4, palette.text));
+    painter.circle_filled(origin, 2.5, palette.strong);
+    let text = |at, align, text: String| {
+        painter.text(at, align, text, FontId::proportional(12.0), palette.weak);
+    };
+    text(rect.left_top() + vec2(8.0, 5.0), Align2::LEFT_TOP, "light arrives".into());
+    let mean = format!("mean cosine {:+.3}", mean_cosine(phase));
+    text(rect.right_top() + vec2(-8.0, 5.0), Align2::RIGHT_TOP, mean);
+    let peak = format!("largest {largest:.3} /sr");
+    text(rect.right_bottom() + vec2(-8.0, -5.0), Align2::RIGHT_BOTTOM, peak);
+    text(rect.left_bottom() + vec2(8.0, -5.0), Align2::LEFT_BOTTOM, "dashed: isotropic".into());
+    response.on_hover_text("p(cos θ) by direction; its integral over the sphere is 1");
+}
+
+/// The lobe is a star about its origin, so a fan fills it even where it is not convex.
+fn fill(painter: &Painter, origin: Pos2, outline: &[Pos2], colour: egui::Color32) {
+    let mut mesh = Mesh::default();
+    mesh.colored_vertex(origin, colour);
+    for (i, p) in (1_u32..).zip(outline) {
+        mesh.colored_vertex(*p, colour);
+        if i > 1 {
+            mesh.add_triangle(0, i - 1, i);
+        }
+    }
+    painter.add(mesh);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::scene::PhaseDoc;
+
+    #[test]
+    fn the_mean_cosine_of_henyey_greenstein_is_g() {
+        for g in [-0.5, 0.0, 0.8] {
+            let phase = Phase::new(&PhaseDoc::HenyeyGreenstein { g }).expect("a valid phase function");
+            assert!((mean_cosine(&phase) - g).abs() < 1e-3);
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! A labelled line of a panel: label, content, and a slot at the end for the reset button.
+
+use crate::theme::LABEL_WIDTH;
+use egui::{Align, Id, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
+
+/// Width of the slot at the end of a row.
+pub(super) const SLOT: f32 = 18.0;
+
+/// A row; `add` gets the rest of the line and the label's id, to name its widget by.
+pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id) -> R) -> R {
+    ui.horizontal(|ui| {
+        let height = ui.spacing().interact_size.y;
+        let (rect, _) = ui.allocate_exact_size(vec2(LABEL_WIDTH, height), Sense::hover());
+        let mut column = ui
+            .new_child(UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
+        let response = column.add(Label::new(RichText::new(label)).truncate().selectable(false));
+        let response = if tip.is_empty() { response } else { response.on_hover_text(tip) };
+        add(ui, response.id)
+    })
+    .inner
+}
+
+/// A row whose content is right of the label column but has no slot to keep free.
+pub fn wide_row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui) -> R) -> R {
+    row(ui, label, tip, |ui, _| add(ui))
+}

@@ -1,0 +1,154 @@
+//! Axes, curve and spectrum strip of the spectrum editor: painting and the maths of its axes.
+
+use super::value::format_number;
+use crate::theme::Palette;
+use egui::{
+    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2,
+};
+use majorant_core::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumDoc, wavelength_colour};
+
+/// Height of the strip of colours and of the numbers under it.
+const STRIP: f32 = 6.0;
+const TICKS: f32 = 15.0;
+
+/// The axes of a plot on the screen.
+#[derive(Clone, Copy, Debug)]
+pub struct Axes {
+    /// The plot's frame, without strip and ticks.
+    pub frame: Rect,
+    /// The value at its top.
+    pub top: f32,
+}
+
+impl Axes {
+    /// Total height of a plot whose frame is `frame` points high.
+    #[must_use]
+    pub fn height(frame: f32) -> f32 {
+        frame + STRIP + TICKS
+    }
+
+    /// Axes inside a rectangle of that height.
+    #[must_use]
+    pub fn within(rect: Rect, top: f32) -> Self {
+        Self { frame: rect.with_max_y(rect.bottom() - STRIP - TICKS), top }
+    }
+
+    /// The screen point of a wavelength and a value.
+    #[must_use]
+    pub fn point(&self, lambda_nm: f32, value: f32) -> Pos2 {
+        let x = (lambda_nm - LAMBDA_MIN_NM) / (LAMBDA_MAX_NM - LAMBDA_MIN_NM);
+        // Four points of air, so that markers at 0 and at the top are not cut.
+        let inner = self.frame.shrink2(vec2(0.0, 4.0));
+        pos2(
+            egui::lerp(self.frame.x_range(), x),
+            egui::remap(value, 0.0..=self.top, inner.bottom()..=inner.top()),
+        )
+    }
+
+    /// The wavelength and value of a screen point.
+    #[must_use]
+    pub fn value(&self, at: Pos2) -> (f32, f32) {
+        let inner = self.frame.shrink2(vec2(0.0, 4.0));
+        (
+            egui::remap(at.x, self.frame.x_range(), LAMBDA_MIN_NM..=LAMBDA_MAX_NM),
+            egui::remap(at.y, inner.bottom()..=inner.top(), 0.0..=self.top),
+        )
+    }
+
+    /// Frame, grid, strip and numbers.
+    pub fn paint(&self, ui: &Ui, painter: &Painter) {
+        let palette = Palette::get(ui);
+        painter.rect_filled(self.frame, 2.0, palette.well);
+        let faint = Stroke::new(1.0, palette.line.gamma_multiply(0.7));
+        let font = FontId::monospace(10.5);
+        for lambda in [400_u16, 500, 600, 700, 800].map(f32::from) {
+            let x = self.point(lambda, 0.0).x;
+            painter.vline(x, self.frame.y_range(), faint);
+            let at = pos2(x, self.frame.bottom() + STRIP + 2.0);
+            painter.text(at, Align2::CENTER_TOP, format!("{lambda}"), font.clone(), palette.weak);
+        }
+        painter.text(
+            pos2(self.frame.right(), self.frame.bottom() + STRIP + 2.0),
+            Align2::RIGHT_TOP,
+            "nm",
+            font.clone(),
+            palette.weak,
+        );
+        painter.hline(self.frame.x_range(), self.point(400.0, 0.5 * self.top).y, faint);
+        let label = |value: f32, align, y| {
+            let text = format_number(f64::from(value));
+            painter.text(pos2(self.frame.left() + 4.0, y), align, text, font.clone(), palette.weak);
+        };
+        label(self.top, Align2::LEFT_TOP, self.frame.top() + 1.0);
+        label(0.5 * self.top, Align2::LEFT_BOTTOM, self.point(400.0, 0.5 * self.top).y);
+        painter.add(strip(Rect::from_min_size(self.frame.left_bottom(), vec2(self.frame.width(), STRIP))));
+    }
+
+    /// The spectrum's curve, filled below with the colours of its wavelengths.
+    pub fn paint_curve(&self, painter: &Painter, doc: &SpectrumDoc, colour: Color32) {
+        let count = 128_u16;
+        let mut mesh = Mesh::default();
+        let mut line = Vec::with_capacity(usize::from(count) + 1);
+        for i in 0..=count {
+            let t = f32::from(i) / f32::from(count);
+            let lambda = egui::lerp(LAMBDA_MIN_NM..=LAMBDA_MAX_NM, t);
+            let Some(value) = doc.value_at(lambda) else { return };
+            let top = self.point(lambda, value.clamp(0.0, self.top * 1.1));
+            line.push(top);
+            let tint = colour_of(lambda).gamma_multiply(0.28);
+            let base = u32::from(i) * 2;
+            mesh.colored_vertex(top, tint);
+            mesh.colored_vertex(pos2(top.x, self.frame.bottom()), tint);
+            if i > 0 {
+                mesh.add_triangle(base - 2, base - 1, base);
+                mesh.add_triangle(base - 1, base, base + 1);
+            }
+        }
+        painter.add(mesh);
+        painter.add(Shape::line(line, Stroke::new(1.6, colour)));
+    }
+}
+
+/// The display colour of a wavelength.
+fn colour_of(lambda_nm: f32) -> Color32 {
+    let [r, g, b] = wavelength_colour(lambda_nm).map(byte);
+    Color32::from_rgb(r, g, b)
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte")]
+fn byte(x: f32) -> u8 {
+    (x.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+/// A band with the colour of every wavelength.
+fn strip(rect: Rect) -> Mesh {
+    let mut mesh = Mesh::default();
+    let count = 94_u16;
+    for i in 0..=count {
+        let t = f32::from(i) / f32::from(count);
+        let colour = colour_of(egui::lerp(LAMBDA_MIN_NM..=LAMBDA_MAX_NM, t));
+        let x = egui::lerp(rect.x_range(), t);
+        let base = u32::from(i) * 2;
+        mesh.colored_vertex(pos2(x, rect.top()), colour);
+        mesh.colored_vertex(pos2(x, rect.bottom()), colour);
+        if i > 0 {
+            mesh.add_triangle(base - 2, base - 1, base);
+            mesh.add_triangle(base - 1, base, base + 1);
+        }
+    }
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_are_invertible() {
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(300.0, Axes::height(100.0)));
+        let axes = Axes::within(rect, 50.0);
+        assert!((axes.frame.height() - 100.0).abs() < 1e-4);
+        let (lambda, value) = axes.value(axes.point(540.0, 40.0));
+        assert!((lambda - 540.0).abs() < 1e-2 && (value - 40.0).abs() < 1e-2);
+    }
+}

@@ -1,0 +1,279 @@
+//! A number that can be dragged, typed with its unit, and set back.
+
+use super::row::{SLOT, row};
+use crate::theme::Palette;
+use egui::{Button, DragValue, Id, Rect, Response, RichText, Ui, emath::Numeric, vec2};
+use std::ops::RangeInclusive;
+
+/// At most six significant digits, no trailing zeros.
+#[must_use]
+pub fn format_number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return if value == 0.0 { "0".into() } else { value.to_string() };
+    }
+    if !(1e-4..1e7).contains(&value.abs()) {
+        return format!("{value:e}");
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "the logarithm of a number between 1e-4 and 1e7")]
+    let decimals = (5 - value.abs().log10().floor() as i32).max(0);
+    let text = format!("{value:.*}", usize::try_from(decimals).unwrap_or(0));
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// Reads a number with or without its unit, with a decimal point or comma.
+#[must_use]
+pub fn parse_number(text: &str, unit: &str) -> Option<f64> {
+    let text = text.trim().replace('−', "-");
+    let text = text.strip_suffix(unit.trim()).unwrap_or(&text).trim();
+    let number = text.trim_end_matches(|c: char| !c.is_ascii_digit() && c != '.').trim();
+    number.replace(',', ".").parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+/// A row with one number.
+pub struct Value<'a, N> {
+    label: &'a str,
+    value: &'a mut N,
+    name: Option<String>,
+    unit: &'a str,
+    range: RangeInclusive<f64>,
+    speed: f64,
+    logarithmic: bool,
+    default: N,
+    opened: N,
+    tip: &'a str,
+}
+
+impl<'a, N: Numeric + PartialEq> Value<'a, N> {
+    /// A number with its label and its default.
+    pub fn new(label: &'a str, value: &'a mut N, default: N) -> Self {
+        Self {
+            label,
+            value,
+            name: None,
+            unit: "",
+            range: N::MIN.to_f64()..=N::MAX.to_f64(),
+            speed: if N::INTEGRAL { 0.25 } else { 0.01 },
+            logarithmic: false,
+            default,
+            opened: default,
+            tip: "",
+        }
+    }
+
+    /// The value that the scene had when it was opened or saved: what the reset button goes back to.
+    #[must_use]
+    pub fn opened(mut self, opened: N) -> Self {
+        self.opened = opened;
+        self
+    }
+
+    /// The unit, shown behind the number.
+    #[must_use]
+    pub fn unit(mut self, unit: &'a str) -> Self {
+        self.unit = unit;
+        self
+    }
+
+    /// The allowed range. If it is finite at both ends, a bar shows where the value lies in it.
+    #[must_use]
+    pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
+        self.range = range;
+        self
+    }
+
+    /// Change per point of dragging.
+    #[must_use]
+    pub fn speed(mut self, speed: f64) -> Self {
+        self.speed = speed;
+        self
+    }
+
+    /// Dragging multiplies: as fine at 0.01 as at 100.
+    #[must_use]
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic = true;
+        self
+    }
+
+    /// What the number means, preferably with the equation that it stands in.
+    #[must_use]
+    pub fn tip(mut self, tip: &'a str) -> Self {
+        self.tip = tip;
+        self
+    }
+
+    /// A name for screen readers where the label alone would be ambiguous.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+
+    /// Shows the row.
+    pub fn show(self, ui: &mut Ui) -> Response {
+        row(ui, self.label, self.tip, |ui, label| self.field(ui, label))
+    }
+
+    fn field(self, ui: &mut Ui, label: Id) -> Response {
+        let speed = if self.logarithmic {
+            (self.value.to_f64().abs() * 0.012).max(1e-4)
+        } else {
+            self.speed
+        };
+        let width = (ui.available_width() - SLOT - ui.spacing().item_spacing.x).max(48.0);
+        let response = drag(ui, self.value, &self.range, speed, self.unit, width);
+        paint_bar(ui, &response, self.value.to_f64(), &self.range, self.logarithmic);
+        let response = match &self.name {
+            Some(name) => response.accessible_name(name.clone()),
+            None => response.labelled_by(label),
+        };
+        let response = if self.tip.is_empty() { response } else { response.on_hover_text(self.tip) };
+        let name = self.name.as_deref().unwrap_or(self.label);
+        reset_menu(&response, self.value, self.opened, self.default);
+        reset_slot(ui, self.value, self.opened, name);
+        response
+    }
+}
+
+fn drag<N: Numeric>(
+    ui: &mut Ui,
+    value: &mut N,
+    range: &RangeInclusive<f64>,
+    speed: f64,
+    unit: &str,
+    width: f32,
+) -> Response {
+    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let mut drag = DragValue::new(value)
+        .speed(speed)
+        .range(range.clone())
+        // A file may hold a value outside; showing it must not change it.
+        .clamp_existing_to_range(false)
+        .update_while_editing(false)
+        .min_size(vec2(width, ui.spacing().interact_size.y))
+        .custom_parser(|text| parse_number(text, unit));
+    if !N::INTEGRAL {
+        drag = drag.custom_formatter(|value, _| format_number(value));
+    }
+    ui.add(drag.suffix(suffix))
+}
+
+/// A hairline at the foot of the field that shows where the value lies in its range.
+#[allow(clippy::cast_possible_truncation, reason = "a fraction between 0 and 1")]
+fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f64>, logarithmic: bool) {
+    let (low, high) = (*range.start(), *range.end());
+    if response.has_focus() || high - low > 1e5 {
+        return;
+    }
+    let fraction = match logarithmic && low > 0.0 {
+        true => (value.max(low) / low).ln() / (high / low).ln(),
+        false => (value - low) / (high - low),
+    };
+    let rect = response.rect;
+    let width = rect.width() * fraction.clamp(0.0, 1.0) as f32;
+    let bar = Rect::from_min_size(rect.left_bottom() - vec2(0.0, 2.0), vec2(width, 2.0));
+    ui.painter().with_clip_rect(ui.clip_rect().intersect(rect)).rect_filled(bar, 1.0, Palette::get(ui).accent.gamma_multiply(0.75));
+}
+
+fn reset_menu<N: Numeric + PartialEq>(response: &Response, value: &mut N, opened: N, default: N) {
+    response.context_menu(|ui| {
+        if ui.button(format!("As opened: {}", format_number(opened.to_f64()))).clicked() {
+            *value = opened;
+            ui.close();
+        }
+        if ui.button(format!("Default: {}", format_number(default.to_f64()))).clicked() {
+            *value = default;
+            ui.close();
+        }
+    });
+}
+
+fn reset_slot<N: Numeric + PartialEq>(ui: &mut Ui, value: &mut N, opened: N, name: &str) {
+    if *value == opened {
+        return;
+    }
+    let text = RichText::new("↺").color(Palette::get(ui).accent);
+    let button = ui.add(Button::new(text).frame(false).min_size(vec2(SLOT, 0.0)).small());
+    let button = button
+        .on_hover_text(format!("Back to {}", format_number(opened.to_f64())))
+        .accessible_name(format!("Reset {name}"));
+    if button.clicked() {
+        *value = opened;
+    }
+}
+
+/// A row with an optional number: a switch, and the number while it is on.
+pub fn optional<N: Numeric + PartialEq>(
+    ui: &mut Ui,
+    label: &str,
+    value: &mut Option<N>,
+    initial: N,
+    off: &str,
+    tip: &str,
+    style: impl FnOnce(Value<'_, N>) -> Value<'_, N>,
+) {
+    row(ui, label, tip, |ui, _| {
+        let mut on = value.is_some();
+        let checkbox = ui.checkbox(&mut on, "").accessible_name(format!("{label} on"));
+        let checkbox = if tip.is_empty() { checkbox } else { checkbox.on_hover_text(tip) };
+        if checkbox.changed() {
+            *value = on.then_some(initial);
+        }
+        match value {
+            Some(number) => {
+                let opened = *number;
+                let field = style(Value::new(label, number, initial).opened(opened).tip(tip)).named(label);
+                field.field(ui, Id::NULL);
+            }
+            None => {
+                ui.weak(off);
+            }
+        }
+    });
+}
+
+/// A row with three coordinates.
+pub fn vector(ui: &mut Ui, label: &str, name: &str, value: &mut [f32; 3], speed: f64, unit: &str, tip: &str) {
+    row(ui, label, tip, |ui, _| {
+        let gap = 4.0;
+        ui.spacing_mut().item_spacing.x = gap;
+        let width = ((ui.available_width() - SLOT - 3.0 * gap) / 3.0).max(40.0);
+        let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
+        for (axis, x) in ["x", "y", "z"].iter().zip(value.iter_mut()) {
+            let field = drag(ui, x, &range, speed, unit, width).accessible_name(format!("{name} {axis}"));
+            if !tip.is_empty() {
+                field.on_hover_text(format!("{axis}: {tip}"));
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_with_their_unit() {
+        assert_eq!(parse_number("540 nm", "nm"), Some(540.0));
+        assert_eq!(parse_number("540nm", "nm"), Some(540.0));
+        assert_eq!(parse_number(" −1,5 °", "°"), Some(-1.5));
+        assert_eq!(parse_number("1e-3", ""), Some(1e-3));
+        assert_eq!(parse_number("12 /sr", "nm"), Some(12.0));
+        assert_eq!(parse_number("", "nm"), None);
+        assert_eq!(parse_number("nm", "nm"), None);
+        assert_eq!(parse_number("inf", ""), None);
+    }
+
+    #[test]
+    fn numbers_are_written_without_noise() {
+        assert_eq!(format_number(0.0), "0");
+        assert_eq!(format_number(0.1_f32.into()), "0.1");
+        assert_eq!(format_number(540.0), "540");
+        assert_eq!(format_number(1.0 / 3.0), "0.333333");
+        assert_eq!(format_number(-12.5), "-12.5");
+        assert_eq!(format_number(1e-6), "1e-6");
+    }
+}

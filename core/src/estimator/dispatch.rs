@@ -1,0 +1,100 @@
+//! From a registry entry to a monomorphic path: mode and medium are matched once per path, and
+//! everything below is one specialised function per estimator × mode × medium.
+
+use super::Estimator;
+use crate::math::Sampler;
+use crate::medium::{AnyMedium, Medium};
+use crate::scene::{EstimatorDoc, Mode, Scene};
+use crate::spectrum::{Components, RgbChannels, Wavelengths};
+use crate::transport::{PathSettings, Trace, World};
+use glam::{Vec2, Vec3};
+
+/// Traces path number `sample` of pixel (x, y).
+pub type Kernel = fn(scene: &Scene, settings: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate;
+
+/// Everything besides the scene that an estimate depends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// Spectral or RGB.
+    pub mode: Mode,
+    /// Choices that every path shares.
+    pub path: PathSettings,
+    /// Selects the random numbers.
+    pub seed: u64,
+}
+
+impl Settings {
+    /// From the edited document.
+    #[must_use]
+    pub fn new(doc: &EstimatorDoc, seed: u64) -> Self {
+        let path = PathSettings {
+            absorption: doc.absorption,
+            max_depth: doc.max_depth.unwrap_or(u32::MAX),
+            roulette_depth: doc.roulette_depth.unwrap_or(u32::MAX),
+        };
+        Self { mode: doc.mode, path, seed }
+    }
+}
+
+/// One path's estimate of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathEstimate {
+    /// Linear sRGB.
+    pub rgb: Vec3,
+    /// Evaluations of the medium's coefficients.
+    pub lookups: u32,
+}
+
+/// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels.
+pub(super) fn family<E: Estimator>(scene: &Scene, s: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate {
+    match s.mode {
+        Mode::Spectral => in_medium::<E, Wavelengths<4>, 4>(scene, s, x, y, sample),
+        Mode::Rgb => in_medium::<E, RgbChannels<3>, 3>(scene, s, x, y, sample),
+    }
+}
+
+/// The kernel of an estimator that carries one component at a time.
+pub(super) fn single<E: Estimator>(scene: &Scene, s: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate {
+    match s.mode {
+        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, x, y, sample),
+        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, x, y, sample),
+    }
+}
+
+fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
+    scene: &Scene,
+    s: &Settings,
+    x: u32,
+    y: u32,
+    sample: u64,
+) -> PathEstimate {
+    match &scene.medium {
+        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
+        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "pixel coordinates are small")]
+fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
+    medium: &M,
+    scene: &Scene,
+    settings: &Settings,
+    x: u32,
+    y: u32,
+    sample: u64,
+) -> PathEstimate {
+    let pixel = u64::from(y) * u64::from(scene.width) + u64::from(x);
+    let mut trace = Trace::new(Sampler::new(settings.seed, pixel, sample));
+    let jitter = trace.sampler.next_2d();
+    let ray = scene.camera.ray(Vec2::new(x as f32, y as f32) + jitter);
+    let components = C::sample(trace.sampler.next_1d());
+    let world = World {
+        scene,
+        medium: medium.local(&components),
+        components,
+        settings: settings.path,
+    };
+    let radiance = E::estimate(&world, ray, &mut trace);
+    PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }
+}

@@ -1,0 +1,76 @@
+//! Independent tracking: one colour component per path.
+//!
+//! ```text
+//!   L ≈ Le · f₁ / p₁
+//! ```
+//!
+//! The path carries a single wavelength (or one of R, G, B), is sampled by that component's own
+//! coefficients, and shares nothing with other components: every weight but the albedo is 1. Simple
+//! and unbiased; but components see different paths, which shows as colour noise (the report's figure 2,
+//! left). Miller, Georgiev and Jarosz 2019, section 5.1.
+
+use super::{Entry, Estimator, dispatch};
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::spectrum::{Components, Sampled};
+use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "independent",
+    name: "Independent tracking",
+    summary: "One colour component per path; simple, and the source of colour noise.",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.1; report, figure 2",
+    kernel: dispatch::single::<Independent>,
+};
+
+pub(super) struct Independent;
+
+impl Estimator for Independent {
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace,
+    ) -> Sampled<N> {
+        let mut radiance = Sampled::ZERO;
+        let mut path = PathWeights::CAMERA;
+        let mut vertices = 0;
+        loop {
+            // Fly until something real happens; null collisions do not turn the path.
+            let surface = world.nearest_surface(&ray, vertices == 0);
+            let mut walk = world.walk(&ray, surface.t());
+            let scattered_at = loop {
+                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                match collision.draw_event(trace) {
+                    Event::Null => path.null(&collision),
+                    Event::Absorption => return radiance,
+                    Event::Scattering => {
+                        path.scatter(&collision);
+                        break Some(collision.point);
+                    }
+                }
+            };
+
+            let vertex = if let Some(point) = scattered_at {
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                for light in world.arrivals(&ray, &surface, vertices == 0) {
+                    radiance += path.hero_only(light.radiance);
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                path.reflect(albedo);
+                vertex
+            };
+
+            vertices += 1;
+            if vertices >= world.settings.max_depth
+                || path.is_dark()
+                || !world.survives_roulette(vertices, &mut path, trace)
+            {
+                return radiance;
+            }
+            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+        }
+    }
+}

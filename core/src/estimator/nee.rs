@@ -1,0 +1,82 @@
+//! Next-event estimation: every real vertex is connected to a light.
+//!
+//! ```text
+//!   L_j ≈ Le_j · f_j / ( (1/C) Σ_i p_nee,i )
+//! ```
+//!
+//! The walk itself collects light only before its first real vertex, where no connection can be made;
+//! afterwards light that it meets is ignored, as connections account for it. Good for small lights
+//! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
+//! section 5.2.
+
+use super::{Entry, Estimator, dispatch};
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::spectrum::{Components, Sampled};
+use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "nee",
+    name: "NEE",
+    summary: "Connects every scattering vertex to a light; wins for small lights.",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; report, figure 3",
+    kernel: dispatch::family::<Nee>,
+};
+
+pub(super) struct Nee;
+
+impl Estimator for Nee {
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace,
+    ) -> Sampled<N> {
+        let mut radiance = Sampled::ZERO;
+        let mut path = PathWeights::CAMERA;
+        let mut vertices = 0;
+        loop {
+            // Fly until something real happens; the weights follow every null collision.
+            let surface = world.nearest_surface(&ray, vertices == 0);
+            let mut walk = world.walk(&ray, surface.t());
+            let scattered_at = loop {
+                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                match collision.draw_event(trace) {
+                    Event::Null => path.null(&collision),
+                    Event::Absorption => return radiance,
+                    Event::Scattering => {
+                        path.scatter(&collision);
+                        break Some(collision.point);
+                    }
+                }
+            };
+
+            let vertex = if let Some(point) = scattered_at {
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                if vertices == 0 {
+                    // No real vertex yet: only the walk can find this light.
+                    for light in world.arrivals(&ray, &surface, true) {
+                        radiance += path.unidirectional(light.radiance);
+                    }
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                path.reflect(albedo);
+                vertex
+            };
+
+            vertices += 1;
+            if vertices >= world.settings.max_depth || path.is_dark() {
+                return radiance;
+            }
+            if let Some(link) = world.connect(&vertex, &path, trace) {
+                radiance += link.weights.connected_only(link.radiance);
+            }
+            if !world.survives_roulette(vertices, &mut path, trace) {
+                return radiance;
+            }
+            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+        }
+    }
+}

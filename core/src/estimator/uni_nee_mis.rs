@@ -1,0 +1,86 @@
+//! Uni+NEE MIS: unidirectional sampling and next-event estimation, combined over techniques and
+//! wavelengths at once.
+//!
+//! ```text
+//!   each technique adds   Le_j · f_j / ( (1/C) Σ_i (p_uni,i + p_nee,i) )
+//! ```
+//!
+//! Wavelengths are a one-sample family (hence the mean), techniques a two-sample family (hence the
+//! sum). p_uni has the phase function's density at the last vertex, p_nee the light's, never both. The
+//! continuing walk *is* the unidirectional sample: if it meets light without another real event, it
+//! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
+//! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
+
+use super::{Entry, Estimator, dispatch};
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::spectrum::{Components, Sampled};
+use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "uni-nee-mis",
+    name: "Uni+NEE MIS",
+    summary: "Unidirectional and next-event estimation combined, over all components; robust.",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; report, algorithms 4–6, figure 3",
+    kernel: dispatch::family::<UniNeeMis>,
+};
+
+pub(super) struct UniNeeMis;
+
+impl Estimator for UniNeeMis {
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace,
+    ) -> Sampled<N> {
+        let mut radiance = Sampled::ZERO;
+        let mut path = PathWeights::CAMERA;
+        let mut vertices = 0;
+        loop {
+            // Fly until something real happens; the weights follow every null collision.
+            let surface = world.nearest_surface(&ray, vertices == 0);
+            let mut walk = world.walk(&ray, surface.t());
+            let scattered_at = loop {
+                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                match collision.draw_event(trace) {
+                    Event::Null => path.null(&collision),
+                    Event::Absorption => return radiance,
+                    Event::Scattering => {
+                        path.scatter(&collision);
+                        break Some(collision.point);
+                    }
+                }
+            };
+
+            let vertex = if let Some(point) = scattered_at {
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                // The walk has met light. Before the first real vertex only it could have.
+                for light in world.arrivals(&ray, &surface, vertices == 0) {
+                    radiance += if vertices == 0 {
+                        path.unidirectional(light.radiance)
+                    } else {
+                        path.balanced(light.radiance, light.density)
+                    };
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                path.reflect(albedo);
+                vertex
+            };
+
+            vertices += 1;
+            if vertices >= world.settings.max_depth || path.is_dark() {
+                return radiance;
+            }
+            if let Some(link) = world.connect(&vertex, &path, trace) {
+                radiance += link.weights.connected_balanced(link.radiance);
+            }
+            if !world.survives_roulette(vertices, &mut path, trace) {
+                return radiance;
+            }
+            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Finds and keeps the files that scenes name.
+
+use super::volume::{self, Limits, SampleConvention, VoxelGrid};
+use super::{embedded, picture};
+use crate::light::Panorama;
+use crate::medium::{Grid, Lattice};
+use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources};
+use glam::{Affine3A, DAffine3, DVec3};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// What a kept file is known by: a file that was written again is read again.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Key {
+    path: PathBuf,
+    grid: Option<String>,
+    modified: Option<SystemTime>,
+}
+
+/// Resolves file names against a base directory and the embedded assets, and keeps what it has read,
+/// so that an edit never reads a file again. The few most recent files are kept.
+#[derive(Clone, Debug, Default)]
+pub struct Library {
+    base: PathBuf,
+    limits: Limits,
+    scalar: HashMap<Key, PlacedGrid<1>>,
+    rgb: HashMap<Key, PlacedGrid<3>>,
+    panoramas: HashMap<Key, Arc<Panorama>>,
+}
+
+/// Files of one kind that are kept; a student flips between a few clouds.
+const KEPT: usize = 4;
+
+impl Library {
+    /// The same library, resolving relative names against `base` (a scene file's directory).
+    #[must_use]
+    pub fn with_base(mut self, base: impl Into<PathBuf>) -> Self {
+        self.base = base.into();
+        self
+    }
+
+    /// Resolves relative names against `base` from now on.
+    pub fn set_base(&mut self, base: impl Into<PathBuf>) {
+        self.base = base.into();
+    }
+
+    fn key(&self, file: &str, grid: Option<&String>) -> Key {
+        let path = if file.starts_with(embedded::PREFIX) {
+            PathBuf::from(file)
+        } else {
+            self.base.join(file)
+        };
+        let modified = std::fs::metadata(&path).and_then(|m| m.modified()).ok();
+        Key { path, grid: grid.cloned(), modified }
+    }
+
+    fn read(&self, key: &Key, file: &str) -> Result<VoxelGrid, ResourceError> {
+        if file.is_empty() {
+            return Err(ResourceError("no file is named: choose a .vdb, .npy or .vol file".into()));
+        }
+        let grid = key.grid.as_deref();
+        let read = match embedded::volume(file) {
+            Some(bytes) => volume::read_volume_bytes(bytes, file, grid, &self.limits),
+            None if file.starts_with(embedded::PREFIX) => {
+                let names: Vec<_> = embedded::VOLUMES.iter().map(|v| v.name).collect();
+                return Err(ResourceError(format!(
+                    "`{file}` is not embedded; there are {}",
+                    names.join(", ")
+                )));
+            }
+            None => volume::read_volume(&key.path, grid, &self.limits),
+        };
+        let voxels = read.map_err(|e| ResourceError(e.to_string()))?;
+        volume::validate_density(&voxels, &key.path).map_err(|e| ResourceError(e.to_string()))?;
+        Ok(voxels)
+    }
+}
+
+/// Keeps a new entry, making room first.
+fn keep<V>(map: &mut HashMap<Key, V>, key: Key, value: V) {
+    if map.len() >= KEPT {
+        map.clear();
+    }
+    map.insert(key, value);
+}
+
+/// Turns voxels into a grid over the unit cube, and places that cube.
+fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>, ResourceError> {
+    if voxels.channels != C {
+        return Err(ResourceError(format!(
+            "{}: the grid has {} values per voxel where {C} are needed",
+            path.display(),
+            voxels.channels
+        )));
+    }
+    let mut notices = Vec::new();
+    if voxels.repaired > 0 {
+        notices.push(format!(
+            "{}: {} voxels that were NaN or infinite were set to 0.",
+            path.display(),
+            voxels.repaired
+        ));
+    }
+    let samples: Vec<[f32; C]> = voxels
+        .values
+        .chunks_exact(C)
+        .map(|c| std::array::from_fn(|i| c[i]))
+        .collect();
+    let min = DVec3::from(voxels.min_index.map(f64::from));
+    #[allow(clippy::cast_precision_loss, reason = "sizes are far below 2^52")]
+    let size = DVec3::from(voxels.size.map(|n| n as f64));
+    let (grid, index_from_unit) = match voxels.convention {
+        SampleConvention::CellCentred => (
+            Grid::new(voxels.size, samples, Lattice::CellCentred),
+            DAffine3::from_translation(min) * DAffine3::from_scale(size),
+        ),
+        SampleConvention::VertexCentred => {
+            // One layer of background all around, so that the field fades out as it does in OpenVDB.
+            let (padded_size, padded) = pad(voxels.size, &samples, [voxels.background; C]);
+            (
+                Grid::new(padded_size, padded, Lattice::VertexCentred),
+                DAffine3::from_translation(min - 1.0) * DAffine3::from_scale(size + 1.0),
+            )
+        }
+    };
+    let grid = grid.ok_or_else(|| {
+        ResourceError(format!("{}: the grid has no voxels", path.display()))
+    })?;
+    if grid.max().iter().all(|m| *m <= 0.0) {
+        notices.push(format!("{}: the grid is empty, its density is 0.", path.display()));
+    }
+    let placed = voxels.world_from_index * index_from_unit;
+    let object_from_unit = Affine3A::from_mat3_translation(
+        placed.matrix3.as_mat3(),
+        placed.translation.as_vec3(),
+    );
+    Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, notices })
+}
+
+fn pad<const C: usize>(
+    [nx, ny, nz]: [usize; 3],
+    samples: &[[f32; C]],
+    background: [f32; C],
+) -> ([usize; 3], Vec<[f32; C]>) {
+    let size = [nx + 2, ny + 2, nz + 2];
+    let mut padded = vec![background; size[0] * size[1] * size[2]];
+    for z in 0..nz {
+        for y in 0..ny {
+            let from = nx * (y + ny * z);
+            let to = 1 + size[0] * (y + 1 + size[1] * (z + 1));
+            padded[to..to + nx].copy_from_slice(&samples[from..from + nx]);
+        }
+    }
+    (size, padded)
+}
+
+impl Resources for Library {
+    fn scalar_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError> {
+        let key = self.key(&grid.file, grid.grid.as_ref());
+        if let Some(kept) = self.scalar.get(&key) {
+            return Ok(kept.clone());
+        }
+        let placed = place(self.read(&key, &grid.file)?, &key.path)?;
+        keep(&mut self.scalar, key, placed.clone());
+        Ok(placed)
+    }
+
+    fn rgb_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<3>, ResourceError> {
+        let key = self.key(&grid.file, grid.grid.as_ref());
+        if let Some(kept) = self.rgb.get(&key) {
+            return Ok(kept.clone());
+        }
+        let placed = place(self.read(&key, &grid.file)?, &key.path)?;
+        keep(&mut self.rgb, key, placed.clone());
+        Ok(placed)
+    }
+
+    fn panorama(&mut self, file: &str) -> Result<Arc<Panorama>, ResourceError> {
+        let key = self.key(file, None);
+        if let Some(kept) = self.panoramas.get(&key) {
+            return Ok(Arc::clone(kept));
+        }
+        let (panorama, _repaired) =
+            picture::read_panorama(&key.path).map_err(|e| ResourceError(e.to_string()))?;
+        let panorama = Arc::new(panorama);
+        keep(&mut self.panoramas, key, Arc::clone(&panorama));
+        Ok(panorama)
+    }
+}

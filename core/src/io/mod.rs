@@ -1,0 +1,10 @@
+//! Files in and out: scenes, volumes, pictures, results.
+
+pub mod embedded;
+pub mod export;
+mod library;
+pub mod picture;
+pub mod scene_file;
+pub mod volume;
+
+pub use library::Library;

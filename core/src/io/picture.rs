@@ -1,0 +1,122 @@
+//! Pictures of the surroundings: EXR and Radiance HDR, as linear RGB.
+
+use crate::light::Panorama;
+use exr::prelude as exr;
+use std::path::Path;
+
+/// The most pixels that are read: 128 million take 1.5 GB.
+const MAX_PIXELS: usize = 128_000_000;
+
+/// Why a picture could not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The file could not be opened or read.
+    #[error("{file}: {source}")]
+    Io {
+        /// The file.
+        file: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not a picture that is understood.
+    #[error("{file}: not a usable picture: {reason}")]
+    Invalid {
+        /// The file.
+        file: String,
+        /// What is wrong, and the cure.
+        reason: String,
+    },
+}
+
+/// A linear RGB picture, row by row from the top.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Pixels.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+/// Reads an `.exr` or `.hdr` picture.
+///
+/// # Errors
+/// When the file is missing, damaged, of another kind, or larger than memory allows.
+pub fn read(path: &Path) -> Result<Picture, PictureError> {
+    let file = path.display().to_string();
+    let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
+    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+    match extension.as_str() {
+        "exr" => read_exr(path, &file),
+        "hdr" => {
+            let reader = image::ImageReader::open(path)
+                .map_err(|source| PictureError::Io { file: file.clone(), source })?;
+            let mut reader = reader;
+            reader.set_format(image::ImageFormat::Hdr);
+            let mut limits = image::Limits::default();
+            limits.max_alloc = Some(16 * MAX_PIXELS as u64);
+            reader.limits(limits);
+            let rgb = reader.decode().map_err(|e| invalid(e.to_string()))?.into_rgb32f();
+            let (width, height) = (rgb.width() as usize, rgb.height() as usize);
+            let pixels = rgb.pixels().map(|p| p.0).collect();
+            Ok(Picture { width, height, pixels })
+        }
+        other => Err(invalid(format!("`.{other}` is not supported; use .exr or .hdr"))),
+    }
+}
+
+fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
+    use exr::*;
+    let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
+    std::fs::metadata(path)
+        .map_err(|source| PictureError::Io { file: file.to_owned(), source })?;
+    // The header is read first: a damaged one can ask for any amount of memory.
+    let meta = MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
+    for header in &meta.headers {
+        if header.layer_size.area() > MAX_PIXELS || header.channels.list.is_empty() {
+            return Err(invalid(format!(
+                "a layer of {} × {} pixels and {} channels; at most {MAX_PIXELS} pixels fit",
+                header.layer_size.width(),
+                header.layer_size.height(),
+                header.channels.list.len()
+            )));
+        }
+    }
+    let image = read_first_rgba_layer_from_file(
+        path,
+        |size, _| Picture {
+            width: size.width(),
+            height: size.height(),
+            pixels: vec![[0.0; 3]; size.area()],
+        },
+        |picture: &mut Picture, at, (r, g, b, _a): (f32, f32, f32, f32)| {
+            let index = at.y() * picture.width + at.x();
+            picture.pixels[index] = [r, g, b];
+        },
+    )
+    .map_err(|e| invalid(format!("{e}; it needs a layer with R, G and B channels")))?;
+    Ok(image.layer_data.channel_data.pixels)
+}
+
+/// Reads a panorama. Texels that are negative or not finite are set to 0 and counted.
+///
+/// # Errors
+/// As for [`read`], and when the picture is black.
+pub fn read_panorama(path: &Path) -> Result<(Panorama, usize), PictureError> {
+    let mut picture = read(path)?;
+    let mut repaired = 0;
+    for pixel in &mut picture.pixels {
+        if pixel.iter().any(|x| !x.is_finite() || *x < 0.0) {
+            repaired += 1;
+            *pixel = pixel.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
+        }
+    }
+    let panorama = Panorama::new(picture.width, picture.height, picture.pixels).ok_or_else(|| {
+        PictureError::Invalid {
+            file: path.display().to_string(),
+            reason: "the picture is empty or black, it would give no light".into(),
+        }
+    })?;
+    Ok((panorama, repaired))
+}

@@ -1,0 +1,226 @@
+//! Scene files: TOML that holds the whole editable document.
+//!
+//! Errors name line and column. Keys carry their units (`fov_deg`, `lambda_nm`), so that a wrong unit
+//! is an unknown key or a value out of range.
+
+use crate::scene::{FORMAT_VERSION, Problem, SceneDoc, validate};
+use std::path::Path;
+use toml_edit::{Document, Item};
+
+/// Why a scene could not be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// The file could not be read or written.
+    #[error("{file}: {source}")]
+    Io {
+        /// The file.
+        file: String,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The text is not a scene.
+    #[error("{file}:{line}:{column}: {message}")]
+    Invalid {
+        /// The file.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong, and the cure.
+        message: String,
+    },
+    /// A `KEY=VALUE` override does not fit the scene.
+    #[error("`{assignment}`: {message}")]
+    Override {
+        /// The override as given.
+        assignment: String,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// Reads a scene file.
+///
+/// # Errors
+/// When the file cannot be read, or is not a valid scene.
+pub fn load(path: &Path) -> Result<SceneDoc, SceneFileError> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path)
+        .map_err(|source| SceneFileError::Io { file: file.clone(), source })?;
+    parse(&text, &file)
+}
+
+/// Reads a scene from text; `name` stands for the file in errors.
+///
+/// # Errors
+/// When the text is not a valid scene: syntax, unknown keys, wrong types, values out of range.
+pub fn parse(text: &str, name: &str) -> Result<SceneDoc, SceneFileError> {
+    let invalid = |offset: usize, message: String| {
+        let (line, column) = line_and_column(text, offset);
+        SceneFileError::Invalid { file: name.to_owned(), line, column, message }
+    };
+    let doc: SceneDoc = toml::from_str(text).map_err(|e| {
+        let offset = locate_error(text, &e);
+        invalid(offset, e.message().to_owned())
+    })?;
+    if doc.majorant != FORMAT_VERSION {
+        let message = format!(
+            "this is scene format {}, but this program reads format {FORMAT_VERSION}: set `majorant = {FORMAT_VERSION}` if the keys fit",
+            doc.majorant
+        );
+        return Err(invalid(offset_of(text, "majorant").unwrap_or(0), message));
+    }
+    match validate(&doc).into_iter().next() {
+        None => Ok(doc),
+        Some(problem) => {
+            Err(invalid(offset_of(text, &problem.path).unwrap_or(0), problem.to_string()))
+        }
+    }
+}
+
+/// The text of a document. It reads back as the same document.
+#[must_use]
+pub fn to_toml(doc: &SceneDoc) -> String {
+    toml::to_string(doc).unwrap_or_else(|e| format!("# not representable: {e}\n"))
+}
+
+/// Writes a scene file.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
+    std::fs::write(path, to_toml(doc))
+        .map_err(|source| SceneFileError::Io { file: path.display().to_string(), source })
+}
+
+/// Applies `KEY=VALUE` overrides such as `medium.majorant.factor=2` or `lights.0.scale=3`. Values are
+/// written as in a scene file; a word that is not TOML is taken as text.
+///
+/// # Errors
+/// When a key does not exist or a value does not fit; the first such override is named.
+pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc, SceneFileError> {
+    let mut doc = doc.clone();
+    for assignment in assignments {
+        let failed = |message: String| SceneFileError::Override {
+            assignment: assignment.clone(),
+            message,
+        };
+        let (path, value) = assignment
+            .split_once('=')
+            .ok_or_else(|| failed("write KEY=VALUE, e.g. medium.majorant.factor=2".into()))?;
+        let mut tree = toml::Value::try_from(&doc).map_err(|e| failed(e.to_string()))?;
+        set(&mut tree, path.trim(), read_value(value.trim())).map_err(failed)?;
+        let changed: SceneDoc =
+            tree.try_into().map_err(|e: toml::de::Error| failed(e.message().to_owned()))?;
+        if let Some(problem) = validate(&changed).into_iter().next() {
+            return Err(failed(problem.to_string()));
+        }
+        doc = changed;
+    }
+    Ok(doc)
+}
+
+fn read_value(text: &str) -> toml::Value {
+    toml::from_str::<toml::Table>(&format!("v = {text}"))
+        .ok()
+        .and_then(|mut table| table.remove("v"))
+        .unwrap_or_else(|| toml::Value::String(text.to_owned()))
+}
+
+fn set(tree: &mut toml::Value, path: &str, value: toml::Value) -> Result<(), String> {
+    let mut at = tree;
+    let mut keys: Vec<&str> = path.split('.').collect();
+    let last = keys.pop().filter(|k| !k.is_empty()).ok_or("the key is empty")?;
+    for key in keys {
+        at = child(at, key).ok_or_else(|| format!("there is no `{key}` on the way to `{path}`"))?;
+    }
+    match at {
+        toml::Value::Table(table) => {
+            table.insert(last.to_owned(), value);
+            Ok(())
+        }
+        toml::Value::Array(_) => {
+            let slot = child(at, last).ok_or_else(|| format!("`{path}`: there is no element {last}"))?;
+            *slot = value;
+            Ok(())
+        }
+        _ => Err(format!("`{path}` leads into a plain value")),
+    }
+}
+
+fn child<'a>(tree: &'a mut toml::Value, key: &str) -> Option<&'a mut toml::Value> {
+    match tree {
+        toml::Value::Table(table) => {
+            // Tables that are all default are not written out; an override may still enter them.
+            Some(table.entry(key).or_insert_with(|| toml::Value::Table(toml::Table::new())))
+        }
+        toml::Value::Array(items) => items.get_mut(key.parse::<usize>().ok()?),
+        _ => None,
+    }
+}
+
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    (line, column)
+}
+
+/// Where an error lies. Inside tagged tables the reader only knows the table: there the key that the
+/// message quotes is looked up.
+fn locate_error(text: &str, error: &toml::de::Error) -> usize {
+    let span = error.span().unwrap_or(0..text.len());
+    let quoted = error.message().split('`').nth(1).filter(|q| !q.is_empty());
+    if let Some(key) = quoted
+        && let Some(region) = text.get(span.clone())
+    {
+        let mut start = span.start;
+        for line in region.split_inclusive('\n') {
+            let trimmed = line.trim_start();
+            let rest = trimmed.strip_prefix(key).map(str::trim_start);
+            if rest.is_some_and(|r| r.starts_with('=')) {
+                return start + line.len() - trimmed.len();
+            }
+            start += line.len();
+        }
+    }
+    span.start
+}
+
+/// Where the value of a key such as `lights[1].size` stands in the text.
+fn offset_of(text: &str, path: &str) -> Option<usize> {
+    let document = Document::parse(text).ok()?;
+    let mut item: &Item = document.as_item();
+    let mut offset = None;
+    for key in path.split(['.', '[', ']']).filter(|k| !k.is_empty()) {
+        let next = match key.parse::<usize>() {
+            Ok(index) => {
+                if let Some(tables) = item.as_array_of_tables() {
+                    offset = tables.get(index).and_then(toml_edit::Table::span).map(|s| s.start).or(offset);
+                    // Keys of an element are found through the element's own table.
+                    return tables.get(index).and_then(|table| {
+                        let rest = path.split_once(&format!("[{index}]."));
+                        rest.and_then(|(_, key)| table.get(key)).and_then(Item::span).map(|s| s.start)
+                    }).or(offset);
+                }
+                None
+            }
+            Err(_) => item.get(key),
+        };
+        match next {
+            Some(found) => {
+                offset = found.span().map(|s| s.start).or(offset);
+                item = found;
+            }
+            None => break,
+        }
+    }
+    offset
+}
+
+/// The problems of a document as one message per line, for people.
+#[must_use]
+pub fn describe(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}

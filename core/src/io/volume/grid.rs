@@ -1,0 +1,194 @@
+//! The dense grid that every reader produces, and the checks that make it a density.
+
+use std::path::Path;
+
+use glam::{DAffine3, DVec3};
+
+use super::error::{Place, VolumeError};
+
+/// Where in its voxel a value sits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SampleConvention {
+    /// At the integer index coordinates (OpenVDB).
+    VertexCentred,
+    /// At index + 1/2: value i of n sits at (i + 1/2)/n of the box (NumPy, Mitsuba).
+    CellCentred,
+}
+
+/// A dense box of voxels.
+#[derive(Debug, Clone)]
+pub struct VoxelGrid {
+    /// Display name of the grid in its file; empty where the format has none.
+    pub name: String,
+    /// Voxels along x, y and z.
+    pub size: [usize; 3],
+    /// Values per voxel: 1 or 3.
+    pub channels: usize,
+    /// x fastest, then y, then z; channels interleaved. All finite.
+    pub values: Vec<f32>,
+    /// Index coordinates of the first voxel.
+    pub min_index: [i32; 3],
+    /// The value of everything outside the box (of the first channel, where there are three).
+    pub background: f32,
+    /// Maps index coordinates to world coordinates.
+    pub world_from_index: DAffine3,
+    /// Where in its voxel a value sits.
+    pub convention: SampleConvention,
+    /// Whether the file calls the grid a level set, that is, a signed distance.
+    pub level_set: bool,
+    /// NaN or infinite voxels that the reader set to 0.
+    pub repaired: usize,
+    /// Voxels with a value below 0. See [`validate_density`].
+    pub negative: usize,
+}
+
+impl VoxelGrid {
+    /// Number of voxels.
+    pub fn voxels(&self) -> usize {
+        self.size.iter().product()
+    }
+
+    /// The channels of voxel (x, y, z), counted from the corner of the box.
+    pub fn voxel(&self, [x, y, z]: [usize; 3]) -> Option<&[f32]> {
+        let [nx, ny, nz] = self.size;
+        if x >= nx || y >= ny || z >= nz {
+            return None;
+        }
+        let first = ((z * ny + y) * nx + x) * self.channels;
+        self.values.get(first..first + self.channels)
+    }
+
+    /// First and last index coordinates, both inclusive: (min x, y, z, max x, y, z).
+    pub fn index_bbox(&self) -> [i32; 6] {
+        let [x, y, z] = self.min_index;
+        // Readers build no grid whose last index would leave the range of i32.
+        let last =
+            |min: i32, n: usize| min.saturating_add(i32::try_from(n).unwrap_or(i32::MAX) - 1);
+        let [nx, ny, nz] = self.size;
+        [x, y, z, last(x, nx), last(y, ny), last(z, nz)]
+    }
+
+    /// Least and greatest value, over all channels; `None` for an empty grid.
+    pub fn min_max(&self) -> Option<(f32, f32)> {
+        self.values.iter().fold(None, |range, &v| match range {
+            None => Some((v, v)),
+            Some((min, max)) => Some((v.min(min), v.max(max))),
+        })
+    }
+
+    /// Mean over all voxels and channels, inactive ones included; 0 for an empty grid.
+    pub fn mean(&self) -> f64 {
+        let sum: f64 = self.values.iter().map(|&v| f64::from(v)).sum();
+        sum / self.values.len().max(1) as f64
+    }
+
+    /// World coordinates of the box that the voxels fill: two opposite corners in index space,
+    /// each mapped to world. Axis-aligned only where `world_from_index` is.
+    pub fn world_corners(&self) -> (DVec3, DVec3) {
+        let [x, y, z] = self.min_index;
+        let min = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+        let size = DVec3::from(self.size.map(|n| n as f64));
+        let max = match self.convention {
+            SampleConvention::VertexCentred => min + size - 1.0,
+            SampleConvention::CellCentred => min + size,
+        };
+        (
+            self.world_from_index.transform_point3(min),
+            self.world_from_index.transform_point3(max),
+        )
+    }
+
+    /// Sets voxels with a NaN or infinite channel to 0, and counts them and the negative ones.
+    pub(super) fn repair_and_count(&mut self) {
+        for voxel in self.values.chunks_exact_mut(self.channels) {
+            if voxel.iter().any(|v| !v.is_finite()) {
+                voxel.fill(0.0);
+                self.repaired += 1;
+            } else if voxel.iter().any(|&v| v < 0.0) {
+                self.negative += 1;
+            }
+        }
+        if !self.background.is_finite() {
+            self.background = 0.0;
+        }
+    }
+}
+
+/// Checks that a grid can serve as a density: no value below 0.
+///
+/// Apart from the readers, so that a level set can still be described and shown.
+///
+/// # Errors
+/// [`VolumeError::NegativeDensity`] with the index of the first negative voxel in memory order.
+pub fn validate_density(grid: &VoxelGrid, path: &Path) -> Result<(), VolumeError> {
+    let Some(at) = grid.values.iter().position(|&v| v < 0.0) else {
+        return Ok(());
+    };
+    let voxel = at / grid.channels;
+    let [nx, ny, _] = grid.size;
+    let offset = [voxel % nx, voxel / nx % ny, voxel / nx / ny];
+    let index = [0, 1, 2].map(|axis| grid.min_index[axis].saturating_add(offset[axis] as i32));
+    Err(VolumeError::NegativeDensity {
+        file: path.display().to_string(),
+        place: Place {
+            grid: Some(grid.name.clone()).filter(|name| !name.is_empty()),
+            byte: None,
+        },
+        index,
+        value: grid.values[at],
+        count: grid.negative,
+        level_set: grid.level_set,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grid(values: Vec<f32>) -> VoxelGrid {
+        VoxelGrid {
+            name: "density".to_owned(),
+            size: [2, 1, values.len() / 2],
+            channels: 1,
+            values,
+            min_index: [10, 20, 30],
+            background: 0.0,
+            world_from_index: DAffine3::IDENTITY,
+            convention: SampleConvention::VertexCentred,
+            level_set: false,
+            repaired: 0,
+            negative: 0,
+        }
+    }
+
+    #[test]
+    fn repair_counts_non_finite_and_negative_voxels() {
+        let mut grid = grid(vec![f32::NAN, 1.0, f32::NEG_INFINITY, -2.0]);
+        grid.repair_and_count();
+        assert_eq!((grid.repaired, grid.negative), (2, 1));
+        assert_eq!(grid.values, [0.0, 1.0, 0.0, -2.0]);
+        assert_eq!(grid.min_max(), Some((-2.0, 1.0)));
+        assert_eq!(grid.index_bbox(), [10, 20, 30, 11, 20, 31]);
+    }
+
+    #[test]
+    fn negative_density_is_named_with_its_index() {
+        let mut grid = grid(vec![0.0, 1.0, 0.5, -2.0]);
+        grid.repair_and_count();
+        let message = validate_density(&grid, Path::new("a.vdb"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains("[11, 20, 31]") && message.contains("\"density\""),
+            "{message}"
+        );
+        grid.level_set = true;
+        let message = validate_density(&grid, Path::new("a.vdb"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            message.contains("level set") && message.contains("fog volume"),
+            "{message}"
+        );
+    }
+}

@@ -1,0 +1,60 @@
+//! How much a volume file may ask of this machine.
+
+use super::error::Fault;
+
+/// Ceilings on memory. A file of a megabyte can describe 70 billion voxels (a "tile bomb"),
+/// so each is checked before the memory is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Longest file, in bytes.
+    pub max_file_bytes: u64,
+    /// Unpacked value blocks of a sparse tree, in bytes.
+    pub max_tree_bytes: u64,
+    /// Values (voxels × channels) of the dense grid; each takes 4 bytes.
+    pub max_dense_values: u64,
+}
+
+impl Default for Limits {
+    /// 1 GiB each for the file, the unpacked tree and the dense grid.
+    fn default() -> Self {
+        Self {
+            max_file_bytes: 1 << 30,
+            max_tree_bytes: 1 << 30,
+            max_dense_values: 1 << 28,
+        }
+    }
+}
+
+impl Limits {
+    /// Number of values of a dense grid of that size, if it is within the limit.
+    pub(super) fn dense_values(&self, size: [u64; 3], channels: usize) -> Result<usize, Fault> {
+        // Sides are at most 2^32, so three of them and a channel count fit in 128 bits.
+        let needed = size.iter().map(|&n| u128::from(n)).product::<u128>() * channels as u128;
+        let allowed = usize::try_from(needed).ok();
+        allowed
+            .filter(|_| needed <= u128::from(self.max_dense_values))
+            .ok_or_else(|| {
+                let [x, y, z] = size;
+                Fault::too_large(
+                    &format!("a dense grid of {x} × {y} × {z} voxels, {channels} value(s) each"),
+                    format_args!("{needed} values"),
+                    format_args!("{} values", self.max_dense_values),
+                    "Crop or resample the volume to a coarser voxel size",
+                )
+            })
+    }
+}
+
+/// An empty vector with room for `len` values; an error instead of an abort when memory is short.
+pub(super) fn allocate<T>(len: usize) -> Result<Vec<T>, Fault> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(len).map_err(|_| {
+        Fault::too_large(
+            "values",
+            format_args!("{} bytes", len.saturating_mul(size_of::<T>())),
+            "the free memory of this machine",
+            "Close other programs, or resample the volume to a coarser voxel size",
+        )
+    })?;
+    Ok(values)
+}

@@ -1,0 +1,223 @@
+//! NumPy `.npy` arrays of shape (z, y, x) or (z, y, x, 3).
+//!
+//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1
+//! to 3: magic, version, header length, a Python dictionary as text, then the values.
+//! Element types: little-endian float16, float32, float64, and uint8 (taken as 0 to 255).
+//!
+//! An array has no place in space. Its voxels become cubes, its longest side one world unit, and
+//! its corner of index (0, 0, 0) the origin.
+
+use glam::{DAffine3, DVec3};
+use half::f16;
+
+use super::cursor::Cursor;
+use super::error::{Fault, VolumeError};
+use super::grid::{SampleConvention, VoxelGrid};
+use super::limits::{Limits, allocate};
+
+/// First bytes of every `.npy` file.
+pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// Longest header accepted, in bytes. NumPy writes 118 for a plain array.
+const MAX_HEADER_BYTES: usize = 1 << 16;
+
+/// Element types that are read.
+#[derive(Debug, Clone, Copy)]
+enum Element {
+    F16,
+    F32,
+    F64,
+    U8,
+}
+
+/// What the header dictionary says.
+struct Header {
+    element: Element,
+    /// x, y, z.
+    size: [usize; 3],
+    channels: usize,
+}
+
+/// Reads a `.npy` file in memory; `label` stands for its path in messages.
+///
+/// # Errors
+/// The header is malformed, the shape, order or element type is another, the number of bytes does
+/// not fit, or the array exceeds the limits.
+pub fn read_npy_bytes(
+    bytes: &[u8],
+    label: &str,
+    limits: &Limits,
+) -> Result<VoxelGrid, VolumeError> {
+    read(bytes, limits).map_err(|fault| fault.in_file(label, None))
+}
+
+fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
+    let mut cursor = Cursor::new(bytes);
+    let Header {
+        element,
+        size,
+        channels,
+    } = header(&mut cursor)?;
+    let len = limits.dense_values(size.map(|n| n as u64), channels)?;
+    let data = data(&mut cursor, len, element.bytes())?;
+    let mut values = allocate(len)?;
+    match element {
+        Element::F16 => values.extend(chunks(data).map(|b| f16::from_le_bytes(b).to_f32())),
+        Element::F32 => values.extend(chunks(data).map(f32::from_le_bytes)),
+        Element::F64 => values.extend(chunks(data).map(|b| f64::from_le_bytes(b) as f32)),
+        Element::U8 => values.extend(data.iter().map(|&byte| f32::from(byte))),
+    }
+    let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
+    let mut grid = VoxelGrid {
+        name: String::new(),
+        size,
+        channels,
+        values,
+        min_index: [0; 3],
+        background: 0.0,
+        world_from_index: DAffine3::from_scale(DVec3::splat(1.0 / longest)),
+        convention: SampleConvention::CellCentred,
+        level_set: false,
+        repaired: 0,
+        negative: 0,
+    };
+    grid.repair_and_count();
+    Ok(grid)
+}
+
+/// The rest of the file, which must be exactly `len` elements.
+pub(super) fn data<'a>(
+    cursor: &mut Cursor<'a>,
+    len: usize,
+    element_bytes: usize,
+) -> Result<&'a [u8], Fault> {
+    let (expected, actual) = (len.saturating_mul(element_bytes), cursor.remaining());
+    if expected != actual {
+        return Err(Fault::invalid(
+            cursor.position(),
+            format!("{expected} bytes of values expected, but {actual} follow"),
+        ));
+    }
+    cursor.take(actual)
+}
+
+/// The bytes in groups of `N`; a rest is left out.
+pub(super) fn chunks<const N: usize>(data: &[u8]) -> impl Iterator<Item = [u8; N]> + '_ {
+    data.chunks_exact(N).map(|chunk| {
+        let mut bytes = [0; N];
+        bytes.copy_from_slice(chunk);
+        bytes
+    })
+}
+
+impl Element {
+    fn of(descr: &str) -> Result<Self, Fault> {
+        Ok(match descr {
+            "<f2" => Self::F16,
+            "<f4" => Self::F32,
+            "<f8" => Self::F64,
+            "|u1" | "<u1" => Self::U8,
+            _ => {
+                return Err(Fault::unsupported(
+                    format!("elements of type {descr}"),
+                    "Convert in Python: numpy.save(path, array.astype('<f4'))",
+                ));
+            }
+        })
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Self::F16 => 2,
+            Self::F32 => 4,
+            Self::F64 => 8,
+            Self::U8 => 1,
+        }
+    }
+}
+
+fn header(cursor: &mut Cursor) -> Result<Header, Fault> {
+    if cursor.take(MAGIC.len()).ok() != Some(MAGIC) {
+        return Err(Fault::invalid(
+            0,
+            "this is not a NumPy file: its magic number is missing",
+        ));
+    }
+    let (major, _minor) = (cursor.u8()?, cursor.u8()?);
+    let len = match major {
+        1 => usize::from(cursor.u16()?),
+        2 | 3 => cursor.u32()? as usize,
+        _ => {
+            return Err(Fault::unsupported(
+                format!("NumPy format version {major}"),
+                "Save the array with numpy.save of NumPy 1 or 2",
+            ));
+        }
+    };
+    let at = cursor.position();
+    if len > MAX_HEADER_BYTES {
+        return Err(Fault::invalid(at, format!("a header of {len} bytes")));
+    }
+    let text = String::from_utf8_lossy(cursor.take(len)?);
+    let malformed = |key: &str| Fault::invalid(at, format!("the header has no usable '{key}'"));
+
+    let order = value_of(&text, "fortran_order").ok_or_else(|| malformed("fortran_order"))?;
+    if !order.starts_with("False") {
+        return Err(Fault::unsupported(
+            "Fortran order",
+            "Convert in Python: numpy.save(path, numpy.ascontiguousarray(array))",
+        ));
+    }
+    let descr = value_of(&text, "descr")
+        .and_then(quoted)
+        .ok_or_else(|| malformed("descr"))?;
+    let shape = value_of(&text, "shape")
+        .and_then(tuple)
+        .ok_or_else(|| malformed("shape"))?;
+    let (size, channels) = match shape[..] {
+        [z, y, x] => ([x, y, z], 1),
+        [z, y, x, 3] => ([x, y, z], 3),
+        _ => {
+            return Err(Fault::unsupported(
+                format!("an array of shape {shape:?}"),
+                "Use three axes (z, y, x), or four with three channels last (z, y, x, 3)",
+            ));
+        }
+    };
+    if size.contains(&0) {
+        return Err(Fault::invalid(
+            at,
+            format!("an array of shape {shape:?} has no voxels"),
+        ));
+    }
+    Ok(Header {
+        element: Element::of(descr)?,
+        size,
+        channels,
+    })
+}
+
+/// What follows `'key':` in the header dictionary.
+fn value_of<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    let (_, behind) = text.split_once(&format!("'{key}'"))?;
+    Some(behind.trim_start().strip_prefix(':')?.trim_start())
+}
+
+/// The text between quotation marks.
+fn quoted(text: &str) -> Option<&str> {
+    text.strip_prefix('\'')?
+        .split_once('\'')
+        .map(|(inside, _)| inside)
+}
+
+/// The numbers of a tuple such as `(3, 4, 5)`.
+fn tuple(text: &str) -> Option<Vec<usize>> {
+    let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
+    let items = inside
+        .split(',')
+        .map(str::trim)
+        .filter(|item| !item.is_empty());
+    items
+        .map(|item| item.parse().ok().filter(|&n| n <= u32::MAX as usize))
+        .collect()
+}

@@ -1,0 +1,147 @@
+//! OpenVDB files, through the crate `vdb-rs` behind a parser of our own.
+//!
+//! `vdb-rs` 0.6.0 unpacks value blocks exactly, but panics on, misreads or drops much of what
+//! real files contain, and is memory-unsafe on damaged Blosc chunks. So the work is split:
+//!
+//! ```text
+//! header → archive → preflight ─ walk of the tree ─→ transcript → vdb-rs → sparse → dense
+//!  magic    grids     head, map   masks, tiles,       one sound    values   stats    VoxelGrid
+//!                                 chunks (blosc)      grid
+//! ```
+//!
+//! * [`header`], [`metadata`], [`descriptor`], [`archive`]: which grids there are, and where;
+//! * [`value_type`], [`compression`], [`blosc`], [`block`], [`map`], [`mask`]: the parts of a grid;
+//! * [`tree`], [`preflight`]: the check of every size against the file's length;
+//! * [`transcript`]: the file of our own that `vdb-rs` gets to see;
+//! * [`read`], [`sparse`], [`dense`], [`info`](mod@info): what comes back, and its uses.
+//!
+//! Read: float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
+//! versions 220 to 224 with every compression, half floats, linear maps, instances, tiles, files
+//! without offsets. Refused by name: bool, mask and point grids, other trees, frustum maps.
+
+mod archive;
+mod block;
+mod blosc;
+mod compression;
+mod dense;
+mod descriptor;
+mod header;
+mod info;
+mod map;
+mod mask;
+mod metadata;
+mod preflight;
+mod read;
+mod sparse;
+mod transcript;
+mod tree;
+mod value_type;
+
+use std::path::Path;
+
+pub use self::info::{Background, GridInfo, info, info_bytes};
+pub(super) use header::MAGIC;
+
+use super::error::{Fault, VolumeError};
+use super::file;
+use super::grid::VoxelGrid;
+use super::limits::Limits;
+use archive::Archive;
+use preflight::Preflight;
+use value_type::ValueType;
+
+/// The grid that is read when none is named.
+const DEFAULT_GRID: &str = "density";
+
+/// Reads one grid of an OpenVDB file into a dense grid over its active bounding box.
+///
+/// Without a name: `density`, or else the first float or double grid that can be read.
+/// Values are converted to `f32`; inactive voxels hold the background; NaN and infinite voxels
+/// are set to 0 and counted. Negative values pass: see
+/// [`validate_density`](super::validate_density).
+///
+/// # Errors
+/// The file is missing, damaged or too large, the grid is not of a supported kind, or there is no
+/// grid of that name.
+pub fn read_vdb(
+    path: &Path,
+    grid: Option<&str>,
+    limits: &Limits,
+) -> Result<VoxelGrid, VolumeError> {
+    read_vdb_bytes(
+        &file::read(path, limits)?,
+        &path.display().to_string(),
+        grid,
+        limits,
+    )
+}
+
+/// [`read_vdb`] for a file in memory; `label` stands for its path in messages.
+///
+/// # Errors
+/// As [`read_vdb`].
+pub fn read_vdb_bytes(
+    bytes: &[u8],
+    label: &str,
+    grid: Option<&str>,
+    limits: &Limits,
+) -> Result<VoxelGrid, VolumeError> {
+    let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
+    let (index, preflight) = choose(&archive, label, grid, limits)?;
+    let name = &archive.grids[index].display_name;
+    let dense = |preflight: Preflight| {
+        let world_from_index = preflight.world_from_index;
+        let level_set = preflight.class == "level set";
+        let dense = dense::densify(&read::unpack(preflight)?, limits)?;
+        Ok(VoxelGrid {
+            name: name.clone(),
+            world_from_index,
+            level_set,
+            ..dense
+        })
+    };
+    dense(preflight).map_err(|fault: Fault| fault.in_file(label, Some(name)))
+}
+
+/// Finds the grid that is asked for, and checks it.
+fn choose(
+    archive: &Archive,
+    label: &str,
+    grid: Option<&str>,
+    limits: &Limits,
+) -> Result<(usize, Preflight), VolumeError> {
+    let check = |index: usize| {
+        let name = &archive.grids[index].display_name;
+        preflight::check(archive, index, limits)
+            .map(|preflight| (index, preflight))
+            .map_err(|fault| fault.in_file(label, Some(name)))
+    };
+    let wanted = grid.unwrap_or(DEFAULT_GRID);
+    if let Some(index) = archive
+        .grids
+        .iter()
+        .position(|grid| grid.display_name == wanted)
+    {
+        return check(index);
+    }
+    let no_such_grid = |what: String| VolumeError::NoSuchGrid {
+        file: label.to_owned(),
+        what,
+        available: archive.names(),
+    };
+    if grid.is_some() {
+        return Err(no_such_grid(format!("it has no grid named \"{wanted}\"")));
+    }
+    let mut first_error = None;
+    for (index, grid) in archive.grids.iter().enumerate() {
+        if !ValueType::of_tree(&grid.tree_type).is_ok_and(ValueType::is_real_scalar) {
+            continue;
+        }
+        match check(index) {
+            Ok(found) => return Ok(found),
+            Err(error) => first_error = first_error.or(Some(error)),
+        }
+    }
+    let nothing = || no_such_grid("none of its grids is a float grid".to_owned());
+    Err(first_error.unwrap_or_else(nothing))
+}

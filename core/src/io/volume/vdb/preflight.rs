@@ -1,0 +1,121 @@
+//! Everything that is checked before `vdb-rs` sees a byte.
+
+use glam::DAffine3;
+
+use super::super::cursor::Cursor;
+use super::super::error::Fault;
+use super::super::limits::Limits;
+use super::archive::Archive;
+use super::block::BlockFormat;
+use super::descriptor::{Extent, GridDescriptor};
+use super::transcript::Transcript;
+use super::tree::{Topology, Walk};
+use super::value_type::ValueType;
+
+/// A grid that may be given to `vdb-rs`.
+#[derive(Debug)]
+pub(super) struct Preflight {
+    /// The bytes to give.
+    pub(super) transcript: Vec<u8>,
+    pub(super) format: BlockFormat,
+    pub(super) topology: Topology,
+    pub(super) world_from_index: DAffine3,
+    /// Grid class as in the file, for example `fog volume`.
+    pub(super) class: String,
+    /// Active voxels, as the writer counted them.
+    pub(super) voxel_count: Option<i64>,
+    /// First and last active index coordinates, as the writer found them.
+    pub(super) bbox: Option<[i32; 6]>,
+}
+
+/// Checks grid `index` from its descriptor to its last leaf.
+pub(super) fn check(archive: &Archive, index: usize, limits: &Limits) -> Result<Preflight, Fault> {
+    let grid = descriptor(archive, index)?;
+    let head = archive.grid_head(grid)?;
+    let (world_from_index, _) = head.map?;
+    let owner = archive.tree_owner(grid)?;
+    let (transcript, format, topology, _end) = walk(archive, owner, limits)?;
+    let bbox_min = head.metadata.vec3i("file_bbox_min");
+    let bbox_max = head.metadata.vec3i("file_bbox_max");
+    Ok(Preflight {
+        transcript,
+        format,
+        topology,
+        world_from_index,
+        class: class(head.metadata.text("class")),
+        voxel_count: head.metadata.int64("file_voxel_count"),
+        bbox: bbox_min
+            .zip(bbox_max)
+            .map(|([x, y, z], [u, v, w])| [x, y, z, u, v, w]),
+    })
+}
+
+/// Grid class from its metadata entry.
+pub(super) fn class(entry: Option<String>) -> String {
+    entry
+        .filter(|class| !class.is_empty())
+        .unwrap_or_else(|| "unknown".to_owned())
+}
+
+/// Where the bytes of a grid end in a file that does not say so, in bytes.
+pub(super) fn end_of_grid(archive: &Archive, index: usize, limits: &Limits) -> Result<u64, Fault> {
+    let grid = descriptor(archive, index)?;
+    if grid.instance_parent.is_empty() {
+        walk(archive, grid, limits).map(|(.., end)| end)
+    } else {
+        let (_, cursor) = archive.grid_head(grid)?.map?;
+        Ok(cursor.position())
+    }
+}
+
+fn descriptor<'a>(archive: &'a Archive, index: usize) -> Result<&'a GridDescriptor, Fault> {
+    archive
+        .grids
+        .get(index)
+        .ok_or_else(|| Fault::invalid(None, format!("no grid number {index}")))
+}
+
+/// Walks the tree of a grid that has one; returns its end in the file as well.
+fn walk(
+    archive: &Archive,
+    grid: &GridDescriptor,
+    limits: &Limits,
+) -> Result<(Vec<u8>, BlockFormat, Topology, u64), Fault> {
+    let value_type = ValueType::of_tree(&grid.tree_type)?;
+    let head = archive.grid_head(grid)?;
+    let (_, cursor) = head.map?;
+    let half = head
+        .metadata
+        .boolean("is_saved_as_half_float")
+        .unwrap_or(grid.half);
+    let format = BlockFormat {
+        version: archive.header.version,
+        compression: head.compression,
+        value_type,
+        stored: value_type.stored(half),
+    };
+    walk_tree(cursor, grid.extent, format, limits)
+}
+
+fn walk_tree(
+    cursor: Cursor,
+    extent: Extent,
+    format: BlockFormat,
+    limits: &Limits,
+) -> Result<(Vec<u8>, BlockFormat, Topology, u64), Fault> {
+    // Nothing in a transcript is longer than in the file, but for the size of empty half chunks.
+    let mut transcript = Transcript::begin(&format, 512 + cursor.remaining());
+    let mut walk = Walk::new(cursor, transcript.tree(), format, limits);
+    walk.topology()?;
+    if let Some(blocks) = extent.blocks {
+        walk.expect_leaf_values_at(blocks)?;
+    }
+    let (topology, blocks, end) = walk.leaf_values()?;
+    if let Some(expected) = extent.end.filter(|&expected| expected != end) {
+        return Err(Fault::invalid(
+            end,
+            format!("the leaf values end here, but the grid is said to end at byte {expected}"),
+        ));
+    }
+    Ok((transcript.finish(blocks), format, topology, end))
+}

@@ -1,0 +1,31 @@
+//! The same radiance from every direction. Sampled uniformly over the sphere.
+
+use super::{Emitter, LightSample};
+use crate::math::{INV_4PI, uniform_direction};
+use crate::spectrum::{Components, Sampled, Spectrum};
+use glam::{Vec2, Vec3};
+
+/// A constant environment.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    /// Arriving radiance.
+    pub radiance: Spectrum,
+}
+
+impl Emitter for Environment {
+    fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
+        Some(LightSample {
+            direction: uniform_direction(u),
+            distance: f32::INFINITY,
+            density: INV_4PI,
+        })
+    }
+
+    fn density(&self, _from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+        INV_4PI
+    }
+
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
+        components.evaluate(&self.radiance)
+    }
+}

@@ -1,0 +1,109 @@
+//! Lights: what they emit, and how to draw directions towards them.
+//!
+//! Densities are per steradian as seen from the shaded point. Directions point from the scene towards
+//! the light. Every light has a positive extent, so that a path which is scattered at random can meet it.
+
+mod environment;
+mod environment_map;
+mod rectangle;
+mod sphere;
+mod sun;
+
+pub use environment::Environment;
+pub use environment_map::{EnvironmentMap, Panorama};
+pub use rectangle::RectangleLight;
+pub use sphere::SphereLight;
+pub use sun::Sun;
+
+use crate::spectrum::{Components, Sampled};
+use glam::{Vec2, Vec3};
+
+/// A direction drawn towards a light.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// Unit vector towards the light.
+    pub direction: Vec3,
+    /// Distance to it; infinite for distant lights.
+    pub distance: f32,
+    /// Density of the direction, per steradian.
+    pub density: f32,
+}
+
+/// The contract of one light.
+pub trait Emitter {
+    /// Draws a direction in which `from` receives light; `None` where it receives none.
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample>;
+
+    /// The density with which [`Self::sample`] draws `direction`, which reaches the light after
+    /// `distance`.
+    fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32;
+
+    /// Radiance that arrives from `direction`, which reaches the light.
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N>;
+}
+
+/// Any light.
+#[derive(Clone, Debug)]
+pub enum LightKind {
+    /// A one-sided rectangle.
+    Rectangle(RectangleLight),
+    /// A sphere.
+    Sphere(SphereLight),
+    /// A distant disc.
+    Sun(Sun),
+    /// The same from everywhere.
+    Environment(Environment),
+    /// By direction, from a picture.
+    EnvironmentMap(EnvironmentMap),
+}
+
+/// A light of the scene.
+#[derive(Clone, Debug)]
+pub struct Light {
+    /// What it is.
+    pub kind: LightKind,
+    /// Whether the camera sees it directly.
+    pub visible: bool,
+}
+
+macro_rules! each {
+    ($self:ident, $light:ident => $body:expr) => {
+        match &$self.kind {
+            LightKind::Rectangle($light) => $body,
+            LightKind::Sphere($light) => $body,
+            LightKind::Sun($light) => $body,
+            LightKind::Environment($light) => $body,
+            LightKind::EnvironmentMap($light) => $body,
+        }
+    };
+}
+
+impl Light {
+    /// Whether a ray that leaves the scene in `direction` reaches this light; surfaces are met, not
+    /// escaped to.
+    #[must_use]
+    pub fn is_behind(&self, direction: Vec3) -> bool {
+        match &self.kind {
+            LightKind::Rectangle(_) | LightKind::Sphere(_) => false,
+            LightKind::Sun(sun) => sun.covers(direction),
+            LightKind::Environment(_) | LightKind::EnvironmentMap(_) => true,
+        }
+    }
+}
+
+impl Emitter for Light {
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
+        each!(self, light => light.sample(from, u))
+    }
+
+    fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32 {
+        each!(self, light => light.density(from, direction, distance))
+    }
+
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
+        each!(self, light => light.radiance(direction, components))
+    }
+}
+
+#[cfg(test)]
+mod tests;

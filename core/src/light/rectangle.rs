@@ -1,0 +1,43 @@
+//! A rectangle that emits on its normal's side. Sampled uniformly over its area.
+
+use super::{Emitter, LightSample};
+use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::surface::Rectangle;
+use glam::{Vec2, Vec3};
+
+/// A one-sided rectangle light; its other side is black.
+#[derive(Clone, Debug)]
+pub struct RectangleLight {
+    /// Its shape.
+    pub shape: Rectangle,
+    /// Emitted radiance.
+    pub radiance: Spectrum,
+}
+
+impl Emitter for RectangleLight {
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
+        let s = u * 2.0 - Vec2::ONE;
+        let point = self.shape.center + self.shape.half_u * s.x + self.shape.half_v * s.y;
+        let to_light = point - from;
+        let distance = to_light.length();
+        let direction = to_light / distance;
+        if distance == 0.0 || direction.dot(self.shape.normal) >= 0.0 {
+            return None;
+        }
+        Some(LightSample { direction, distance, density: self.density(from, direction, distance) })
+    }
+
+    /// distance² / (area · cos θ at the light).
+    fn density(&self, _from: Vec3, direction: Vec3, distance: f32) -> f32 {
+        let cosine = -direction.dot(self.shape.normal);
+        if cosine <= 0.0 { 0.0 } else { distance * distance / (self.shape.area * cosine) }
+    }
+
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
+        if direction.dot(self.shape.normal) < 0.0 {
+            components.evaluate(&self.radiance)
+        } else {
+            Sampled::ZERO
+        }
+    }
+}

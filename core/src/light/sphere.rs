@@ -1,0 +1,49 @@
+//! A sphere that emits outwards. Sampled uniformly over the cone that it fills.
+
+use super::{Emitter, LightSample};
+use crate::math::Frame;
+use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::surface::Sphere;
+use glam::{Vec2, Vec3};
+use std::f32::consts::TAU;
+
+/// A sphere light.
+#[derive(Clone, Debug)]
+pub struct SphereLight {
+    /// Its shape.
+    pub shape: Sphere,
+    /// Emitted radiance.
+    pub radiance: Spectrum,
+}
+
+impl SphereLight {
+    /// 1 − cos of the half angle under which the sphere is seen, without cancellation; `None` inside.
+    fn one_minus_cos_max(&self, distance2: f32) -> Option<f32> {
+        let sin2 = self.shape.radius * self.shape.radius / distance2;
+        (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+    }
+}
+
+impl Emitter for SphereLight {
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
+        let to_center = self.shape.center - from;
+        let distance2 = to_center.length_squared();
+        let cap = self.one_minus_cos_max(distance2)?;
+        let one_minus_cos = u.x * cap;
+        let direction = Frame::about(to_center / distance2.sqrt()).polar(one_minus_cos, TAU * u.y);
+        // Distance to the near side: foot of the centre on the ray, less half a chord.
+        let along = to_center.dot(direction);
+        let off_axis2 = (to_center - direction * along).length_squared();
+        let half_chord = (self.shape.radius * self.shape.radius - off_axis2).max(0.0).sqrt();
+        Some(LightSample { direction, distance: along - half_chord, density: 1.0 / (TAU * cap) })
+    }
+
+    fn density(&self, from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+        self.one_minus_cos_max((self.shape.center - from).length_squared())
+            .map_or(0.0, |cap| 1.0 / (TAU * cap))
+    }
+
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
+        components.evaluate(&self.radiance)
+    }
+}

@@ -1,0 +1,58 @@
+//! A distant disc: constant radiance from every direction within a small angle of one.
+
+use super::{Emitter, LightSample};
+use crate::math::Frame;
+use crate::spectrum::{Components, Sampled, Spectrum};
+use glam::{Vec2, Vec3};
+use std::f32::consts::{PI, TAU};
+
+/// A sun. Its radiance is irradiance / (π sin² α) for half angle α, so that a surface that faces it
+/// receives the irradiance that was asked for, whatever its diameter.
+#[derive(Clone, Debug)]
+pub struct Sun {
+    toward: Vec3,
+    one_minus_cos_max: f32,
+    radiance: Spectrum,
+}
+
+impl Sun {
+    /// A sun in direction `toward` with an apparent diameter in degrees.
+    #[must_use]
+    pub fn new(toward: Vec3, angular_diameter_deg: f32, irradiance: Spectrum) -> Self {
+        let half_angle = 0.5 * angular_diameter_deg.to_radians();
+        let sin_half = (0.5 * half_angle).sin();
+        let sin = half_angle.sin();
+        Self {
+            toward: toward.normalize(),
+            one_minus_cos_max: 2.0 * sin_half * sin_half,
+            radiance: irradiance.scaled(1.0 / (PI * sin * sin)),
+        }
+    }
+
+    /// Whether the disc lies in this direction.
+    #[must_use]
+    pub fn covers(&self, direction: Vec3) -> bool {
+        // |a − b|²/2 = 1 − cos, which a dot product would round away at this size.
+        0.5 * (direction - self.toward).length_squared() < self.one_minus_cos_max
+    }
+}
+
+impl Emitter for Sun {
+    fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
+        let direction =
+            Frame::about(self.toward).polar(u.x * self.one_minus_cos_max, TAU * u.y);
+        Some(LightSample {
+            direction,
+            distance: f32::INFINITY,
+            density: 1.0 / (TAU * self.one_minus_cos_max),
+        })
+    }
+
+    fn density(&self, _from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+        1.0 / (TAU * self.one_minus_cos_max)
+    }
+
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
+        components.evaluate(&self.radiance)
+    }
+}

@@ -1,0 +1,65 @@
+//! An orthonormal frame about a direction.
+
+use glam::Vec3;
+
+/// Right-handed orthonormal axes whose third is a given unit vector.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    x: Vec3,
+    y: Vec3,
+    z: Vec3,
+}
+
+impl Frame {
+    /// Axes about the unit vector `z` (Duff et al. 2017, "Building an orthonormal basis, revisited").
+    #[must_use]
+    pub fn about(z: Vec3) -> Self {
+        let sign = 1.0f32.copysign(z.z);
+        let a = -1.0 / (sign + z.z);
+        let b = z.x * z.y * a;
+        Self {
+            x: Vec3::new(1.0 + sign * z.x * z.x * a, sign * b, -sign * z.x),
+            y: Vec3::new(b, sign + z.y * z.y * a, -z.y),
+            z,
+        }
+    }
+
+    /// A vector given along the frame's axes, in the space of its `z`.
+    #[must_use]
+    pub fn to_world(&self, v: Vec3) -> Vec3 {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    /// The unit vector at angle θ from `z`, from 1 − cos θ and the azimuth in radians.
+    ///
+    /// Takes 1 − cos θ because it keeps its digits for the sharp lobes of strongly forward scattering.
+    #[must_use]
+    pub fn polar(&self, one_minus_cos: f32, phi: f32) -> Vec3 {
+        let sin_theta = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        self.to_world(Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - one_minus_cos))
+            .normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_are_orthonormal_even_at_the_poles() {
+        for z in [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::new(0.3, -0.8, -0.52).normalize()] {
+            let f = Frame::about(z);
+            for (a, b, dot) in [
+                (f.x, f.y, 0.0),
+                (f.y, f.z, 0.0),
+                (f.z, f.x, 0.0),
+                (f.x, f.x, 1.0),
+                (f.y, f.y, 1.0),
+            ] {
+                assert!((a.dot(b) - dot).abs() < 1e-6);
+            }
+            assert!((f.x.cross(f.y) - z).length() < 1e-6);
+        }
+    }
+}

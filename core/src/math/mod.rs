@@ -1,0 +1,32 @@
+//! Geometry and randomness that nothing else in the crate is below of.
+
+mod frame;
+mod ray;
+mod sampler;
+
+pub use frame::Frame;
+pub use ray::{Ray, UnitBox};
+pub use sampler::Sampler;
+
+use glam::{Vec2, Vec3};
+use std::f32::consts::{PI, TAU};
+
+/// 1/(4π): the density of the uniform distribution over directions, per steradian.
+pub const INV_4PI: f32 = 1.0 / (4.0 * PI);
+
+/// A direction uniform over the sphere, from two uniform numbers.
+#[must_use]
+pub fn uniform_direction(u: Vec2) -> Vec3 {
+    let z = 1.0 - 2.0 * u.x;
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    let (sin, cos) = (TAU * u.y).sin_cos();
+    Vec3::new(r * cos, r * sin, z)
+}
+
+/// A direction about +z with density cos θ/π, from two uniform numbers.
+#[must_use]
+pub fn cosine_direction(u: Vec2) -> Vec3 {
+    let r = u.x.sqrt();
+    let (sin, cos) = (TAU * u.y).sin_cos();
+    Vec3::new(r * cos, r * sin, (1.0 - u.x).max(0.0).sqrt())
+}

@@ -1,0 +1,51 @@
+//! Constant coefficients: σt(λ) and albedo(λ) everywhere in the box.
+
+use super::{Coefficients, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
+use crate::math::Ray;
+use crate::spectrum::{Components, Sampled, Spectrum};
+use glam::Vec3;
+
+/// A medium with constant coefficients.
+#[derive(Clone, Debug)]
+pub struct Homogeneous {
+    /// Extinction σt(λ), per scene unit.
+    pub extinction: Spectrum,
+    /// Albedo(λ).
+    pub albedo: Spectrum,
+    /// Majorant relative to the extinction.
+    pub majorant: MajorantPolicy,
+}
+
+/// [`Homogeneous`] at a path's components.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalHomogeneous<const N: usize> {
+    extinction: Sampled<N>,
+    albedo: Sampled<N>,
+    majorant: Sampled<N>,
+    policy: MajorantPolicy,
+}
+
+impl Medium for Homogeneous {
+    type Local<'a, const N: usize> = LocalHomogeneous<N>;
+
+    fn local<const N: usize, C: Components<N>>(&self, components: &C) -> LocalHomogeneous<N> {
+        LocalHomogeneous {
+            extinction: components.evaluate(&self.extinction),
+            albedo: components.evaluate(&self.albedo),
+            majorant: self.majorant.global(components, &self.extinction),
+            policy: self.majorant,
+        }
+    }
+}
+
+impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
+    type Segments<'a> = std::iter::Once<MajorantSegment<N>>;
+
+    fn coefficients(&self, _point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
+        Coefficients::new(self.extinction, self.albedo, majorant)
+    }
+
+    fn segments<'a>(&'a self, _ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
+        std::iter::once(self.policy.segment(self.majorant, t0, t1))
+    }
+}

@@ -1,0 +1,55 @@
+//! Majorants: what free flights are sampled from.
+
+use crate::scene::{MajorantDoc, WhenExceeded};
+use crate::spectrum::{Components, Sampled, Spectrum};
+
+/// A stretch of a ray with one majorant μ̄ per component.
+#[derive(Clone, Copy, Debug)]
+pub struct MajorantSegment<const N: usize> {
+    /// Ray parameter at which it begins.
+    pub t0: f32,
+    /// Ray parameter at which it ends.
+    pub t1: f32,
+    /// μ̄ per component and scene unit.
+    pub majorant: Sampled<N>,
+    /// Whether null coefficients are clamped at zero where μt > μ̄: **biased**.
+    pub clamp_null: bool,
+}
+
+/// How the majorant relates to the least upper bound of the extinction.
+#[derive(Clone, Copy, Debug)]
+pub struct MajorantPolicy {
+    factor: f32,
+    shared: bool,
+    clamp_null: bool,
+}
+
+impl MajorantPolicy {
+    /// Freezes the edited choice.
+    #[must_use]
+    pub fn new(doc: &MajorantDoc) -> Self {
+        Self {
+            factor: doc.factor,
+            shared: doc.shared,
+            clamp_null: doc.when_exceeded == WhenExceeded::Clamp,
+        }
+    }
+
+    /// The global majorant of a medium whose extinction is bounded by `bound(λ)`.
+    #[must_use]
+    pub fn global<const N: usize, C: Components<N>>(&self, components: &C, bound: &Spectrum) -> Sampled<N> {
+        if self.shared {
+            // In RGB mode the wavelengths are the three channels.
+            let max = bound.max_over_wavelengths().max(bound.rgb().max_element());
+            Sampled::splat(max * self.factor)
+        } else {
+            components.evaluate(bound) * self.factor
+        }
+    }
+
+    /// The one segment of a global majorant.
+    #[must_use]
+    pub fn segment<const N: usize>(&self, majorant: Sampled<N>, t0: f32, t1: f32) -> MajorantSegment<N> {
+        MajorantSegment { t0, t1, majorant, clamp_null: self.clamp_null }
+    }
+}

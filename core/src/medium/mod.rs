@@ -1,0 +1,63 @@
+//! Participating media.
+//!
+//! A medium answers two questions and no others (the report's appendix B): its coefficients at a
+//! point, and majorant segments along a ray. Sampling, events and transmittance are transport's.
+//!
+//! Every medium fills the unit cube of its own *medium space*; an affine placement puts it into the
+//! world. Rays are taken into medium space with their parameter `t` unchanged, so that distances,
+//! and with them coefficients per scene unit, keep their meaning under any placement.
+
+mod coefficients;
+mod density_grid;
+mod grid;
+mod homogeneous;
+mod majorant;
+mod rgb_grids;
+
+pub use coefficients::Coefficients;
+pub use density_grid::DensityGrid;
+pub use grid::{Grid, Lattice};
+pub use homogeneous::Homogeneous;
+pub use majorant::{MajorantPolicy, MajorantSegment};
+pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
+
+use crate::math::Ray;
+use crate::spectrum::Components;
+use glam::Vec3;
+
+/// A medium before a path has chosen its components.
+pub trait Medium: Send + Sync {
+    /// The medium at the components of one path.
+    type Local<'a, const N: usize>: LocalMedium<N>
+    where
+        Self: 'a;
+
+    /// Evaluates all spectra at a path's components, once per path.
+    fn local<const N: usize, C: Components<N>>(&self, components: &C) -> Self::Local<'_, N>;
+}
+
+/// A medium at the components of one path: the contract that transport is written against.
+pub trait LocalMedium<const N: usize> {
+    /// Majorant segments along a ray.
+    type Segments<'a>: Iterator<Item = MajorantSegment<N>>
+    where
+        Self: 'a;
+
+    /// Absorption, scattering and null coefficient at a point of medium space, with respect to the
+    /// majorant of the segment that the point lies in. One density look-up.
+    fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N>;
+
+    /// Majorants along a ray in medium space, as adjoining segments that cover `t0..t1` in order.
+    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a>;
+}
+
+/// Any medium, to be matched once before a monomorphic loop.
+#[derive(Clone, Debug)]
+pub enum AnyMedium {
+    /// Constant coefficients.
+    Homogeneous(Homogeneous),
+    /// A scalar density grid times an extinction spectrum.
+    DensityGrid(DensityGrid),
+    /// RGB grids for extinction, albedo or both.
+    RgbGrids(RgbGrids),
+}

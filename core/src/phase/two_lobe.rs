@@ -1,0 +1,28 @@
+//! Two Henyey–Greenstein lobes: p = w p_g₁ + (1 − w) p_g₂, mean cosine w g₁ + (1 − w) g₂.
+
+use super::Lobe;
+use super::henyey_greenstein::HenyeyGreenstein;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TwoLobe {
+    pub first: HenyeyGreenstein,
+    pub second: HenyeyGreenstein,
+    /// The first lobe's share w, 0 to 1.
+    pub share: f32,
+}
+
+impl Lobe for TwoLobe {
+    fn value(&self, one_minus_cos: f32) -> f32 {
+        self.share * self.first.value(one_minus_cos)
+            + (1.0 - self.share) * self.second.value(one_minus_cos)
+    }
+
+    /// Picks a lobe, then uses what is left of the number in it.
+    fn sample(&self, u: f32) -> f32 {
+        if u < self.share {
+            self.first.sample(u / self.share)
+        } else {
+            self.second.sample(((u - self.share) / (1.0 - self.share)).min(1.0))
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! Freezes a document into a scene.
+
+use super::{
+    Camera, DensityDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc,
+    SceneError, SceneInfo, placement, validate,
+};
+use crate::light::{
+    Environment, EnvironmentMap, Light, LightKind, Panorama, RectangleLight, SphereLight, Sun,
+};
+use crate::medium::{
+    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantPolicy,
+    RgbGrids,
+};
+use crate::phase::Phase;
+use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
+use crate::surface::{OrientedBox, Plane, Rectangle, Role, Shape, Sphere, Surface};
+use glam::{Affine3A, Vec3};
+use std::sync::Arc;
+
+/// A grid with the box that it fills in its own file's space.
+#[derive(Clone, Debug)]
+pub struct PlacedGrid<const C: usize> {
+    /// The samples.
+    pub grid: Arc<Grid<C>>,
+    /// Takes the unit cube to the box that the file says.
+    pub object_from_unit: Affine3A,
+    /// What reading repaired, e.g. NaN voxels that were set to 0.
+    pub notices: Vec<String>,
+}
+
+/// Why a file could not be used; its message names the file, the place and the cure.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct ResourceError(pub String);
+
+/// Where a scene's files come from. Implementations keep what they have read.
+pub trait Resources {
+    /// A scalar grid.
+    ///
+    /// # Errors
+    /// When the file is missing, damaged, of another kind, or too large.
+    fn scalar_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError>;
+
+    /// An RGB grid.
+    ///
+    /// # Errors
+    /// As for [`Self::scalar_grid`].
+    fn rgb_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<3>, ResourceError>;
+
+    /// A picture of the surroundings.
+    ///
+    /// # Errors
+    /// As for [`Self::scalar_grid`].
+    fn panorama(&mut self, file: &str) -> Result<Arc<Panorama>, ResourceError>;
+}
+
+/// Freezes a document. Spectra, lights and surfaces are rebuilt every time, which takes microseconds;
+/// grids and pictures come from `resources`, which keeps them.
+///
+/// # Errors
+/// The first problem that validation finds, or a file that could not be used.
+pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, SceneError> {
+    if let Some(problem) = validate(doc).into_iter().next() {
+        return Err(SceneError::Invalid(problem));
+    }
+    let mut notices = Vec::new();
+    let (medium, object_from_unit, mut info) = build_medium(&doc.medium, resources, &mut notices)?;
+    let world_from_unit = placement::world_from_unit(&doc.medium.placement, object_from_unit);
+    if world_from_unit.matrix3.determinant().abs() < 1e-30 || !world_from_unit.is_finite() {
+        return Err(SceneError::Invalid(Problem {
+            path: "medium.placement".into(),
+            message: "the box has no volume: give every scale a value other than 0".into(),
+        }));
+    }
+    let (lo, hi) = placement::bounds(&world_from_unit);
+    (info.world_min, info.world_max) = (lo.to_array(), hi.to_array());
+
+    let mut surfaces = Vec::new();
+    let mut lights = Vec::new();
+    for (index, light) in doc.lights.iter().enumerate() {
+        let built = build_light(light, resources)
+            .map_err(|source| SceneError::Resource { path: format!("lights[{index}]"), source })?;
+        let shape = match &built {
+            LightKind::Rectangle(l) => Some(Shape::Rectangle(l.shape)),
+            LightKind::Sphere(l) => Some(Shape::Sphere(l.shape)),
+            _ => None,
+        };
+        surfaces.extend(shape.map(|shape| Surface { shape, role: Role::Light(index) }));
+        lights.push(Light { kind: built, visible: light.visible() });
+    }
+    surfaces.extend(doc.objects.iter().map(build_object));
+    if lights.is_empty() {
+        notices.push("No light: the image is black. Add a light.".into());
+    }
+
+    Ok(Scene {
+        camera: Camera::new(&doc.camera, doc.film.width, doc.film.height),
+        width: doc.film.width,
+        height: doc.film.height,
+        medium,
+        medium_from_world: world_from_unit.inverse(),
+        phase: Phase::new(&doc.medium.phase),
+        surfaces,
+        lights,
+        info,
+        notices,
+    })
+}
+
+fn coefficient(doc: &SpectrumDoc) -> Spectrum {
+    Spectrum::new(doc, Quantity::Coefficient)
+}
+
+fn build_medium(
+    doc: &MediumDoc,
+    resources: &mut dyn Resources,
+    notices: &mut Vec<String>,
+) -> Result<(AnyMedium, Affine3A, SceneInfo), SceneError> {
+    let at = |path: &str| {
+        let path = path.to_owned();
+        move |source| SceneError::Resource { path, source }
+    };
+    let centred = Affine3A::from_translation(Vec3::splat(-0.5));
+    let majorant = MajorantPolicy::new(&doc.majorant);
+    let sigma = coefficient(&doc.extinction).scaled(doc.scale);
+    let mut info = SceneInfo { max_density: 1.0, mean_density: 1.0, ..SceneInfo::default() };
+
+    let mut placed = centred;
+    let extinction = match &doc.density {
+        DensityDoc::Uniform => ExtinctionField::Uniform(sigma),
+        DensityDoc::Grid(grid) => {
+            let read = resources.scalar_grid(grid).map_err(at("medium.density"))?;
+            describe(&mut info, &read.grid);
+            notices.extend(read.notices);
+            placed = read.object_from_unit;
+            ExtinctionField::Density(read.grid, sigma)
+        }
+        DensityDoc::RgbGrid(grid) => {
+            let read = resources.rgb_grid(grid).map_err(at("medium.density"))?;
+            describe(&mut info, &read.grid);
+            notices.extend(read.notices);
+            placed = read.object_from_unit;
+            ExtinctionField::Rgb(read.grid, doc.scale)
+        }
+    };
+    let albedo = match &doc.albedo_grid {
+        None => AlbedoField::Uniform(coefficient(&doc.albedo)),
+        Some(grid) => {
+            let read = resources.rgb_grid(grid).map_err(at("medium.albedo_grid"))?;
+            if read.grid.max().iter().any(|a| *a > 1.0) {
+                return Err(at("medium.albedo_grid")(ResourceError(format!(
+                    "{}: an albedo of {} is above 1; scale the grid to at most 1",
+                    grid.file,
+                    read.grid.max().into_iter().fold(0.0, f32::max)
+                ))));
+            }
+            info.memory_bytes += read.grid.bytes();
+            notices.extend(read.notices);
+            AlbedoField::Rgb(read.grid)
+        }
+    };
+    info.tightness = if info.max_density > 0.0 {
+        info.mean_density / (info.max_density * doc.majorant.factor)
+    } else {
+        1.0
+    };
+    let medium = match (extinction, albedo) {
+        (ExtinctionField::Uniform(extinction), AlbedoField::Uniform(albedo)) => {
+            AnyMedium::Homogeneous(Homogeneous { extinction, albedo, majorant })
+        }
+        (ExtinctionField::Density(density, extinction), AlbedoField::Uniform(albedo)) => {
+            AnyMedium::DensityGrid(DensityGrid { density, extinction, albedo, majorant })
+        }
+        (extinction, albedo) => AnyMedium::RgbGrids(RgbGrids::new(extinction, albedo, majorant)),
+    };
+    Ok((medium, placed, info))
+}
+
+fn describe<const C: usize>(info: &mut SceneInfo, grid: &Grid<C>) {
+    info.grid_size = Some(grid.size());
+    info.memory_bytes += grid.bytes();
+    info.max_density = grid.max().into_iter().fold(0.0, f32::max);
+    info.mean_density = grid.mean().into_iter().fold(0.0, f32::max);
+}
+
+fn build_light(doc: &LightDoc, resources: &mut dyn Resources) -> Result<LightKind, ResourceError> {
+    let radiance = |doc: &SpectrumDoc, scale: f32| Spectrum::new(doc, Quantity::Radiance).scaled(scale);
+    Ok(match doc {
+        LightDoc::Rectangle { center, target, up, size, radiance: r, scale, .. } => {
+            LightKind::Rectangle(RectangleLight {
+                shape: Rectangle::facing((*center).into(), (*target).into(), (*up).into(), *size),
+                radiance: radiance(r, *scale),
+            })
+        }
+        LightDoc::Sphere { center, radius, radiance: r, scale, .. } => {
+            LightKind::Sphere(SphereLight {
+                shape: Sphere { center: (*center).into(), radius: *radius },
+                radiance: radiance(r, *scale),
+            })
+        }
+        LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => LightKind::Sun(
+            Sun::new((*toward).into(), *angular_diameter_deg, radiance(irradiance, *scale)),
+        ),
+        LightDoc::Environment { radiance: r, scale, .. } => {
+            LightKind::Environment(Environment { radiance: radiance(r, *scale) })
+        }
+        LightDoc::EnvironmentMap { file, rotate_deg, scale, .. } => {
+            LightKind::EnvironmentMap(EnvironmentMap {
+                panorama: resources.panorama(file)?,
+                scale: *scale,
+                rotate: rotate_deg.to_radians(),
+            })
+        }
+    })
+}
+
+fn build_object(doc: &ObjectDoc) -> Surface {
+    let (shape, albedo) = match doc {
+        ObjectDoc::Ground { point, normal, albedo } => (
+            Shape::Plane(Plane {
+                point: (*point).into(),
+                normal: Vec3::from(*normal).normalize(),
+            }),
+            albedo,
+        ),
+        ObjectDoc::Box { center, size, rotate_deg, albedo } => (
+            Shape::Box(OrientedBox {
+                center: (*center).into(),
+                half_size: Vec3::from(*size) * 0.5,
+                world_from_box: placement::rotation(*rotate_deg),
+            }),
+            albedo,
+        ),
+    };
+    Surface { shape, role: Role::Diffuse(coefficient(albedo)) }
+}

@@ -1,0 +1,77 @@
+//! A pinhole camera.
+
+use super::CameraDoc;
+use crate::math::Ray;
+use glam::{Vec2, Vec3};
+
+/// A camera with a film of a given size in front of it.
+///
+/// The ray through continuous pixel coordinates (x right, y down) has direction
+/// `normalize((2x/W − 1)·tan(fov/2)·right + (1 − 2y/H)·tan(fov/2)·(H/W)·up + forward)`.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    origin: Vec3,
+    forward: Vec3,
+    /// Half a film's width along `right`, at distance 1.
+    right: Vec3,
+    up: Vec3,
+    pixels_to_film: Vec2,
+}
+
+impl Camera {
+    /// Freezes an edited camera for a film of `width × height` pixels.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "film sizes are small")]
+    pub fn new(doc: &CameraDoc, width: u32, height: u32) -> Self {
+        let origin = Vec3::from(doc.origin);
+        let forward = (Vec3::from(doc.target) - origin).normalize();
+        let sideways = forward.cross(Vec3::from(doc.up));
+        let right = if sideways.length_squared() > 1e-12 {
+            sideways.normalize()
+        } else {
+            forward.any_orthonormal_vector()
+        };
+        let tan = (0.5 * doc.fov_deg.to_radians()).tan();
+        let (w, h) = (width as f32, height as f32);
+        Self {
+            origin,
+            forward,
+            right: right * tan,
+            up: right.cross(forward) * (tan * h / w),
+            pixels_to_film: Vec2::new(2.0 / w, 2.0 / h),
+        }
+    }
+
+    /// The ray through a point of the film, in pixels.
+    #[must_use]
+    pub fn ray(&self, pixel: Vec2) -> Ray {
+        let s = pixel * self.pixels_to_film - Vec2::ONE;
+        let direction = (self.right * s.x - self.up * s.y + self.forward).normalize();
+        Ray { origin: self.origin, direction }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rays_agree_with_an_independent_renderer() {
+        // Oracle scene S1, `check_rays`.
+        let doc = CameraDoc {
+            origin: [1.6, 1.1, -2.4],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov_deg: 32.0,
+        };
+        let camera = Camera::new(&doc, 128, 128);
+        for (pixel, direction) in [
+            ([0.0, 0.0], [-0.311_724_66, -0.081_921_36, 0.946_634_37]),
+            ([128.0, 0.0], [-0.753_922_2, -0.081_921_36, 0.651_835_98]),
+            ([10.5, 100.25], [-0.275_432_5, -0.488_033_3, 0.828_227_13]),
+        ] {
+            let ray = camera.ray(Vec2::from(pixel));
+            assert!((ray.direction - Vec3::from(direction)).length() < 1e-6, "{}", ray.direction);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Lights as edited.
+
+use crate::spectrum::SpectrumDoc;
+use serde::{Deserialize, Serialize};
+
+fn one() -> SpectrumDoc {
+    SpectrumDoc::Constant(1.0)
+}
+fn unit() -> f32 {
+    1.0
+}
+fn shown() -> bool {
+    true
+}
+fn solar_diameter() -> f32 {
+    0.53
+}
+fn world_up() -> [f32; 3] {
+    [0.0, 1.0, 0.0]
+}
+
+/// One light. Radiances are per scene-unit² and steradian, each times `scale`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum LightDoc {
+    /// A rectangle that emits on the side that faces `target`; its back is black. It blocks light.
+    Rectangle {
+        /// Its centre.
+        center: [f32; 3],
+        /// The point that it faces.
+        target: [f32; 3],
+        /// Direction that its height leans to.
+        #[serde(default = "world_up")]
+        up: [f32; 3],
+        /// Width and height.
+        size: [f32; 2],
+        /// Emitted radiance.
+        #[serde(default = "one")]
+        radiance: SpectrumDoc,
+        /// Multiplies the radiance.
+        #[serde(default = "unit")]
+        scale: f32,
+        /// Whether the camera sees it directly.
+        #[serde(default = "shown")]
+        visible: bool,
+    },
+    /// A sphere that emits outwards and blocks light.
+    Sphere {
+        /// Its centre.
+        center: [f32; 3],
+        /// Its radius.
+        radius: f32,
+        /// Emitted radiance.
+        #[serde(default = "one")]
+        radiance: SpectrumDoc,
+        /// Multiplies the radiance.
+        #[serde(default = "unit")]
+        scale: f32,
+        /// Whether the camera sees it directly.
+        #[serde(default = "shown")]
+        visible: bool,
+    },
+    /// A distant disc: all its light comes from within half its diameter of one direction.
+    Sun {
+        /// Points from the scene to the sun.
+        toward: [f32; 3],
+        /// Apparent diameter, degrees.
+        #[serde(default = "solar_diameter")]
+        angular_diameter_deg: f32,
+        /// Irradiance on a surface that faces the sun.
+        #[serde(default = "one")]
+        irradiance: SpectrumDoc,
+        /// Multiplies the irradiance.
+        #[serde(default = "unit")]
+        scale: f32,
+        /// Whether the camera sees it directly.
+        #[serde(default = "shown")]
+        visible: bool,
+    },
+    /// The same radiance from every direction.
+    Environment {
+        /// Arriving radiance.
+        #[serde(default = "one")]
+        radiance: SpectrumDoc,
+        /// Multiplies the radiance.
+        #[serde(default = "unit")]
+        scale: f32,
+        /// Whether the camera sees it directly.
+        #[serde(default = "shown")]
+        visible: bool,
+    },
+    /// Radiance by direction from an equirectangular EXR or HDR picture (linear sRGB; top row is +y).
+    EnvironmentMap {
+        /// The picture; relative to the scene file.
+        file: String,
+        /// Turns it about the y axis, degrees.
+        #[serde(default)]
+        rotate_deg: f32,
+        /// Multiplies the radiance.
+        #[serde(default = "unit")]
+        scale: f32,
+        /// Whether the camera sees it directly.
+        #[serde(default = "shown")]
+        visible: bool,
+    },
+}
+
+impl Default for LightDoc {
+    fn default() -> Self {
+        Self::Environment { radiance: one(), scale: 1.0, visible: true }
+    }
+}
+
+impl LightDoc {
+    /// One of each kind, with the name that pickers show: what "Add light" offers.
+    #[must_use]
+    pub fn templates() -> Vec<(&'static str, Self)> {
+        vec![
+            (
+                "Rectangle",
+                Self::Rectangle {
+                    center: [1.5, 1.5, 0.0],
+                    target: [0.0; 3],
+                    up: world_up(),
+                    size: [0.6, 0.6],
+                    radiance: one(),
+                    scale: 10.0,
+                    visible: true,
+                },
+            ),
+            (
+                "Sphere",
+                Self::Sphere {
+                    center: [1.2, 1.0, 0.6],
+                    radius: 0.15,
+                    radiance: one(),
+                    scale: 30.0,
+                    visible: true,
+                },
+            ),
+            (
+                "Sun",
+                Self::Sun {
+                    toward: [0.6, 0.7, 0.4],
+                    angular_diameter_deg: solar_diameter(),
+                    irradiance: one(),
+                    scale: 3.0,
+                    visible: true,
+                },
+            ),
+            ("Environment", Self::Environment { radiance: one(), scale: 0.3, visible: true }),
+            (
+                "Environment map",
+                Self::EnvironmentMap { file: String::new(), rotate_deg: 0.0, scale: 1.0, visible: true },
+            ),
+        ]
+    }
+
+    /// The kind's name for people.
+    #[must_use]
+    pub fn kind_name(&self) -> &'static str {
+        match self {
+            Self::Rectangle { .. } => "Rectangle",
+            Self::Sphere { .. } => "Sphere",
+            Self::Sun { .. } => "Sun",
+            Self::Environment { .. } => "Environment",
+            Self::EnvironmentMap { .. } => "Environment map",
+        }
+    }
+
+    /// Whether the camera sees it directly.
+    #[must_use]
+    pub fn visible(&self) -> bool {
+        match self {
+            Self::Rectangle { visible, .. }
+            | Self::Sphere { visible, .. }
+            | Self::Sun { visible, .. }
+            | Self::Environment { visible, .. }
+            | Self::EnvironmentMap { visible, .. } => *visible,
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! The medium as edited.
+
+use crate::spectrum::SpectrumDoc;
+use serde::{Deserialize, Serialize};
+
+/// A participating medium in an index-matched box.
+///
+/// Extinction is `σt(x, λ) = scale · density(x) · extinction(λ)`, per scene unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MediumDoc {
+    /// Multiplies the density.
+    pub scale: f32,
+    /// Extinction of density 1, by wavelength.
+    pub extinction: SpectrumDoc,
+    /// Scattered fraction of what is extinguished, 0 to 1.
+    pub albedo: SpectrumDoc,
+    /// Replaces `albedo` by an RGB grid over the same box.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub albedo_grid: Option<GridRef>,
+    /// Where the density comes from.
+    pub density: DensityDoc,
+    /// Where the box stands.
+    pub placement: PlacementDoc,
+    /// The majorant that free flights are sampled from.
+    pub majorant: MajorantDoc,
+    /// Which way light scatters.
+    pub phase: PhaseDoc,
+}
+
+impl Default for MediumDoc {
+    fn default() -> Self {
+        Self {
+            scale: 1.0,
+            extinction: SpectrumDoc::Constant(4.0),
+            albedo: SpectrumDoc::Constant(0.9),
+            albedo_grid: None,
+            density: DensityDoc::default(),
+            placement: PlacementDoc::default(),
+            majorant: MajorantDoc::default(),
+            phase: PhaseDoc::default(),
+        }
+    }
+}
+
+/// A grid in a file: OpenVDB, `.npy` or Mitsuba `.vol`.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GridRef {
+    /// The file, relative to the scene file, or `embedded:plume.vdb`.
+    pub file: String,
+    /// The grid's name inside the file; by default `density`, else the first that is readable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grid: Option<String>,
+}
+
+/// Where the density comes from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum DensityDoc {
+    /// 1 everywhere in the unit cube centred on the origin: a homogeneous medium.
+    #[default]
+    Uniform,
+    /// A scalar grid, trilinear between samples.
+    Grid(GridRef),
+    /// An RGB grid that stands for density times extinction; `extinction` is then unused.
+    RgbGrid(GridRef),
+}
+
+impl DensityDoc {
+    /// The file behind it, if any.
+    #[must_use]
+    pub fn grid(&self) -> Option<&GridRef> {
+        match self {
+            Self::Uniform => None,
+            Self::Grid(grid) | Self::RgbGrid(grid) => Some(grid),
+        }
+    }
+}
+
+/// An affine placement: fit, then scale, rotate, translate; or a matrix instead of all of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlacementDoc {
+    /// First centre the box on the origin and scale its longest side to this length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fit: Option<f32>,
+    /// Scale along the box's axes.
+    pub scale: [f32; 3],
+    /// Turns about x, then y, then z, degrees.
+    pub rotate_deg: [f32; 3],
+    /// Moves by this much.
+    pub translate: [f32; 3],
+    /// Three rows of a world-from-object matrix, instead of scale, rotation and translation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub matrix: Option<[[f32; 4]; 3]>,
+}
+
+impl Default for PlacementDoc {
+    fn default() -> Self {
+        Self {
+            fit: None,
+            scale: [1.0; 3],
+            rotate_deg: [0.0; 3],
+            translate: [0.0; 3],
+            matrix: None,
+        }
+    }
+}
+
+/// The majorant μ̄ relative to the least upper bound of the extinction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MajorantDoc {
+    /// 1 is tight; above it null collisions are added; below it μ̄ no longer bounds the extinction.
+    pub factor: f32,
+    /// Every wavelength gets the largest wavelength's majorant.
+    pub shared: bool,
+    /// What happens where the extinction exceeds the majorant.
+    pub when_exceeded: WhenExceeded,
+}
+
+impl Default for MajorantDoc {
+    fn default() -> Self {
+        Self { factor: 1.0, shared: false, when_exceeded: WhenExceeded::Weighted }
+    }
+}
+
+/// What happens where the extinction exceeds the majorant (factor below 1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WhenExceeded {
+    /// The null coefficient turns negative; unbiased, with more variance.
+    #[default]
+    Weighted,
+    /// The null coefficient is clamped at zero: **biased**, the textbook mistake.
+    Clamp,
+}
+
+/// Phase function, by the cosine between the directions of propagation before and after.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum PhaseDoc {
+    /// The same in every direction.
+    #[default]
+    Isotropic,
+    /// One Henyey–Greenstein lobe.
+    HenyeyGreenstein {
+        /// Mean cosine, −1 to 1 exclusive; positive is forward.
+        g: f32,
+    },
+    /// Two Henyey–Greenstein lobes.
+    TwoLobe {
+        /// Mean cosine of the first lobe.
+        g_forward: f32,
+        /// Mean cosine of the second lobe.
+        g_backward: f32,
+        /// Share of the first lobe, 0 to 1.
+        forward: f32,
+    },
+    /// Molecules.
+    Rayleigh,
+}

@@ -1,0 +1,109 @@
+//! The editable scene: what a person edits, what a scene file holds, what undo remembers.
+//!
+//! Plain data without handles or caches. [`super::build`] freezes it into a [`super::Scene`].
+//! Lengths are in scene units, angles in degrees, wavelengths in nanometres, extinction per scene unit.
+
+mod camera;
+mod light;
+mod medium;
+mod object;
+mod render;
+
+pub use camera::{CameraDoc, FilmDoc};
+pub use light::LightDoc;
+pub use medium::{DensityDoc, GridRef, MajorantDoc, MediumDoc, PhaseDoc, PlacementDoc, WhenExceeded};
+pub use object::ObjectDoc;
+pub use render::{Absorption, EstimatorDoc, Mode, RenderDoc, ToneCurve, ViewDoc};
+
+use serde::{Deserialize, Serialize};
+
+/// The version of the scene format that this program writes.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// A whole scene, as edited and as stored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneDoc {
+    /// Format version; a file without it or with another is refused.
+    pub majorant: u32,
+    /// A short name.
+    #[serde(default)]
+    pub title: String,
+    /// What to notice in this scene.
+    #[serde(default)]
+    pub note: String,
+    /// Where the picture is taken from.
+    #[serde(default)]
+    pub camera: CameraDoc,
+    /// Its size.
+    #[serde(default)]
+    pub film: FilmDoc,
+    /// What fills the box.
+    #[serde(default)]
+    pub medium: MediumDoc,
+    /// Everything that emits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lights: Vec<LightDoc>,
+    /// Diffuse surfaces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objects: Vec<ObjectDoc>,
+    /// How light transport is estimated.
+    #[serde(default)]
+    pub estimator: EstimatorDoc,
+    /// When to stop, which random numbers, how many threads.
+    #[serde(default)]
+    pub render: RenderDoc,
+    /// How the image is shown; never changes the estimate.
+    #[serde(default)]
+    pub view: ViewDoc,
+}
+
+impl Default for SceneDoc {
+    fn default() -> Self {
+        Self {
+            majorant: FORMAT_VERSION,
+            title: "Untitled".into(),
+            note: String::new(),
+            camera: CameraDoc::default(),
+            film: FilmDoc::default(),
+            medium: MediumDoc::default(),
+            lights: vec![LightDoc::default()],
+            objects: Vec::new(),
+            estimator: EstimatorDoc::default(),
+            render: RenderDoc::default(),
+            view: ViewDoc::default(),
+        }
+    }
+}
+
+impl SceneDoc {
+    /// The part that the frozen scene depends on, everything else at its default: two documents that
+    /// agree in it share one frozen scene.
+    #[must_use]
+    pub fn scene_part(&self) -> Self {
+        Self {
+            camera: self.camera.clone(),
+            film: self.film.clone(),
+            medium: self.medium.clone(),
+            lights: self.lights.clone(),
+            objects: self.objects.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// The part that the estimate depends on: two documents that agree in it give the same image after
+    /// the same number of samples. Limits, title and display are left out.
+    #[must_use]
+    pub fn render_part(&self) -> Self {
+        Self {
+            estimator: self.estimator.clone(),
+            render: RenderDoc {
+                seed: self.render.seed,
+                threads: self.render.threads,
+                spp: None,
+                seconds: None,
+            },
+            ..self.scene_part()
+        }
+    }
+}

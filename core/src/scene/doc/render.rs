@@ -1,0 +1,111 @@
+//! Estimator, sampling limits and display as edited.
+
+use serde::{Deserialize, Serialize};
+
+/// How light transport is estimated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EstimatorDoc {
+    /// An id of [`crate::estimator::REGISTRY`].
+    pub id: String,
+    /// What a path's components stand for.
+    pub mode: Mode,
+    /// What happens at a collision that may absorb.
+    pub absorption: Absorption,
+    /// Most segments of a path between camera, scattering vertices and light: 1 is emission only, 2 is
+    /// single scattering. Absent: unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_depth: Option<u32>,
+    /// Ends faint paths at random after this many scattering vertices, unbiased. Absent: never.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roulette_depth: Option<u32>,
+}
+
+impl Default for EstimatorDoc {
+    fn default() -> Self {
+        Self {
+            id: "uni-nee-mis".into(),
+            mode: Mode::Spectral,
+            absorption: Absorption::Weighted,
+            max_depth: None,
+            roulette_depth: None,
+        }
+    }
+}
+
+/// What a path's components stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// Wavelengths from 360 to 830 nm, seen by the CIE 1931 observer.
+    #[default]
+    Spectral,
+    /// Three fixed components: red, green, blue.
+    Rgb,
+}
+
+/// What happens at a collision in a medium that absorbs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Absorption {
+    /// Absorption is an event that ends the path, as in the report and in Miller et al. 2019.
+    Analogue,
+    /// Absorption is never drawn; scattering carries the albedo as a weight.
+    #[default]
+    Weighted,
+}
+
+/// When to stop, which random numbers, how many threads.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RenderDoc {
+    /// Stop after this many samples per pixel. Absent: no limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spp: Option<u32>,
+    /// Stop after this many seconds of rendering. Absent: no limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f32>,
+    /// Selects the random numbers; the image depends on nothing else that is random.
+    pub seed: u64,
+    /// Worker threads. Absent: one per core.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub threads: Option<usize>,
+}
+
+impl Default for RenderDoc {
+    fn default() -> Self {
+        Self { spp: Some(1024), seconds: None, seed: 0, threads: None }
+    }
+}
+
+/// How linear radiance becomes display colour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ViewDoc {
+    /// Stops: radiance is multiplied by 2 to this power.
+    pub exposure_ev: f32,
+    /// The curve that maps bright radiance into the display's range.
+    pub tone: ToneCurve,
+    /// Display gamma; absent: the sRGB curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gamma: Option<f32>,
+}
+
+impl Default for ViewDoc {
+    fn default() -> Self {
+        Self { exposure_ev: 0.0, tone: ToneCurve::Filmic, gamma: None }
+    }
+}
+
+/// The curve that maps bright radiance into the display's range.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToneCurve {
+    /// Clips at 1: what you see is what was computed.
+    Linear,
+    /// x / (1 + x) by luminance (Reinhard et al. 2002).
+    Reinhard,
+    /// A soft shoulder and toe, per channel (Narkowicz's fit of ACES).
+    #[default]
+    Filmic,
+}

@@ -1,0 +1,99 @@
+//! A scene that does not change any more: what paths are traced in.
+
+use super::Camera;
+use crate::light::Light;
+use crate::math::Ray;
+use crate::medium::AnyMedium;
+use crate::phase::Phase;
+use crate::surface::{Role, Surface, SurfaceHit};
+use glam::{Affine3A, Vec3};
+
+/// A frozen scene. Immutable and shared by every view that renders it.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The camera.
+    pub camera: Camera,
+    /// Columns of the film.
+    pub width: u32,
+    /// Rows of the film.
+    pub height: u32,
+    /// The medium, in the unit cube of its own space.
+    pub medium: AnyMedium,
+    /// Takes points of the world into the medium's unit cube.
+    pub medium_from_world: Affine3A,
+    /// The medium's phase function.
+    pub phase: Phase,
+    /// Lights with a shape, and diffuse surfaces.
+    pub surfaces: Vec<Surface>,
+    /// Every light.
+    pub lights: Vec<Light>,
+    /// Numbers that people want to see.
+    pub info: SceneInfo,
+    /// What building repaired or wants to be known.
+    pub notices: Vec<String>,
+}
+
+/// Numbers about a scene that people want to see.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneInfo {
+    /// Samples per axis of the density grid.
+    pub grid_size: Option<[usize; 3]>,
+    /// Largest density.
+    pub max_density: f32,
+    /// Mean density over the box.
+    pub mean_density: f32,
+    /// Mean extinction over the majorant: the share of collisions in the box that are real.
+    pub tightness: f32,
+    /// Lowest corner of the medium's bounds in the world.
+    pub world_min: [f32; 3],
+    /// Highest corner.
+    pub world_max: [f32; 3],
+    /// Bytes that grids take.
+    pub memory_bytes: usize,
+}
+
+/// The surface that a ray meets first, if any.
+#[derive(Clone, Copy, Debug)]
+pub struct NearestSurface<'a>(Option<(SurfaceHit, &'a Surface)>);
+
+impl<'a> NearestSurface<'a> {
+    /// Distance along the ray; infinite if none is met.
+    #[must_use]
+    pub fn t(&self) -> f32 {
+        self.0.map_or(f32::INFINITY, |(hit, _)| hit.t)
+    }
+
+    /// Unit normal; zero if none is met.
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.0.map_or(Vec3::ZERO, |(hit, _)| hit.normal)
+    }
+
+    /// What the surface does with light; `None` if none is met.
+    #[must_use]
+    pub fn role(&self) -> Option<&'a Role> {
+        self.0.map(|(_, surface)| &surface.role)
+    }
+}
+
+impl Scene {
+    /// The surface that a ray meets first at `0 < t < t_max`. Rays from the camera pass through lights
+    /// that are hidden from it.
+    #[must_use]
+    pub fn nearest_surface(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
+        let mut nearest: Option<(SurfaceHit, &Surface)> = None;
+        for surface in &self.surfaces {
+            if from_camera
+                && let Role::Light(index) = surface.role
+                && self.lights.get(index).is_some_and(|light| !light.visible)
+            {
+                continue;
+            }
+            let limit = nearest.map_or(t_max, |(hit, _)| hit.t);
+            if let Some(hit) = surface.shape.intersect(ray, limit) {
+                nearest = Some((hit, surface));
+            }
+        }
+        NearestSurface(nearest)
+    }
+}

@@ -1,0 +1,242 @@
+//! Refuses documents that make no sense, naming the key, the value and the cure.
+
+use super::{LightDoc, MediumDoc, ObjectDoc, PhaseDoc, SceneDoc};
+use crate::estimator;
+use crate::spectrum::SpectrumDoc;
+use glam::Vec3;
+use std::fmt;
+
+/// A value that makes no sense.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// The key in the document, e.g. `medium.albedo` or `lights[1].size`.
+    pub path: String,
+    /// What is wrong, and the cure.
+    pub message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}: {}", self.path, self.message)
+    }
+}
+
+/// The most pixels of a film: 64 million keep film and pictures below 5 GB.
+const MAX_PIXELS: u64 = 64_000_000;
+
+#[derive(Default)]
+struct Checker {
+    problems: Vec<Problem>,
+}
+
+impl Checker {
+    fn check(&mut self, good: bool, path: impl Into<String>, message: impl Into<String>) {
+        if !good {
+            self.problems.push(Problem { path: path.into(), message: message.into() });
+        }
+    }
+
+    fn finite(&mut self, path: impl Into<String>, values: &[f32]) {
+        let good = values.iter().all(|v| v.is_finite());
+        self.check(good, path, "holds a number that is not finite");
+    }
+
+    fn range(&mut self, path: impl Into<String>, value: f32, lo: f32, hi: f32) {
+        let message = format!("is {value}, outside {lo} to {hi}");
+        self.check((lo..=hi).contains(&value), path, message);
+    }
+
+    fn spectrum(&mut self, path: &str, doc: &SpectrumDoc, max: f32) {
+        for value in doc.values() {
+            let message = format!("holds {value}; values from 0 to {max} make sense here");
+            self.check((0.0..=max).contains(&value), path, message);
+        }
+        for point in doc.control_points().unwrap_or_default().0 {
+            let message = format!(
+                "has a control point at {}; wavelengths are in nanometres, 360 to 830 is visible",
+                point.lambda_nm
+            );
+            self.check((100.0..=10_000.0).contains(&point.lambda_nm), path, message);
+        }
+    }
+
+    fn direction(&mut self, path: &str, v: [f32; 3]) {
+        let length = Vec3::from(v).length();
+        self.check(
+            length.is_finite() && length > 0.0,
+            path,
+            format!("is {v:?}, which has no direction"),
+        );
+    }
+}
+
+/// Every problem of a document, in the order of its keys.
+#[must_use]
+pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
+    let mut c = Checker::default();
+    let pixels = u64::from(doc.film.width) * u64::from(doc.film.height);
+    c.check(
+        pixels > 0,
+        "film",
+        format!("is {} × {} pixels: give both sides at least 1", doc.film.width, doc.film.height),
+    );
+    c.check(
+        pixels <= MAX_PIXELS,
+        "film",
+        format!(
+            "{} × {} pixels are too many: at most {} million fit",
+            doc.film.width,
+            doc.film.height,
+            MAX_PIXELS / 1_000_000
+        ),
+    );
+    let camera = &doc.camera;
+    c.finite("camera", &[camera.origin, camera.target, camera.up].concat());
+    c.check(
+        camera.origin != camera.target,
+        "camera.target",
+        "is where the camera stands: move one of the two",
+    );
+    c.direction("camera.up", camera.up);
+    c.check(
+        camera.fov_deg > 0.0 && camera.fov_deg < 179.0,
+        "camera.fov_deg",
+        format!("is {}; a field of view lies between 0 and 179 degrees", camera.fov_deg),
+    );
+    medium(&mut c, &doc.medium);
+    for (i, light) in doc.lights.iter().enumerate() {
+        check_light(&mut c, &format!("lights[{i}]"), light);
+    }
+    for (i, object) in doc.objects.iter().enumerate() {
+        check_object(&mut c, &format!("objects[{i}]"), object);
+    }
+    let known: Vec<_> = estimator::REGISTRY.iter().map(|e| e.id).collect();
+    c.check(
+        known.contains(&doc.estimator.id.as_str()),
+        "estimator.id",
+        format!("`{}` is not an estimator: choose {}", doc.estimator.id, known.join(", ")),
+    );
+    c.check(
+        doc.estimator.max_depth != Some(0),
+        "estimator.max_depth",
+        "is 0; 1 is emission only, 2 single scattering; leave it out for no limit",
+    );
+    c.check(doc.render.spp != Some(0), "render.spp", "is 0: leave it out for no limit");
+    c.check(
+        doc.render.spp.is_none_or(|spp| spp <= 1 << 30),
+        "render.spp",
+        "is above 2^30: leave it out for no limit",
+    );
+    c.check(
+        doc.render.seconds.is_none_or(|s| s > 0.0 && s.is_finite()),
+        "render.seconds",
+        "must be positive: leave it out for no limit",
+    );
+    c.check(
+        doc.render.threads.is_none_or(|t| (1..=1024).contains(&t)),
+        "render.threads",
+        "must lie between 1 and 1024: leave it out for one per core",
+    );
+    c.range("view.exposure_ev", doc.view.exposure_ev, -64.0, 64.0);
+    c.check(
+        doc.view.gamma.is_none_or(|g| (0.1..=10.0).contains(&g)),
+        "view.gamma",
+        "lies between 0.1 and 10: leave it out for the sRGB curve",
+    );
+    c.problems
+}
+
+fn medium(c: &mut Checker, doc: &MediumDoc) {
+    c.range("medium.scale", doc.scale, 0.0, 1e6);
+    c.spectrum("medium.extinction", &doc.extinction, 1e6);
+    c.spectrum("medium.albedo", &doc.albedo, 1.0);
+    c.check(
+        doc.majorant.factor >= 0.01 && doc.majorant.factor <= 1000.0,
+        "medium.majorant.factor",
+        format!("is {}; it lies between 0.01 and 1000, 1 is tight", doc.majorant.factor),
+    );
+    match doc.phase {
+        PhaseDoc::Isotropic | PhaseDoc::Rayleigh => {}
+        PhaseDoc::HenyeyGreenstein { g } => c.range("medium.phase.g", g, -0.999, 0.999),
+        PhaseDoc::TwoLobe { g_forward, g_backward, forward } => {
+            c.range("medium.phase.g_forward", g_forward, -0.999, 0.999);
+            c.range("medium.phase.g_backward", g_backward, -0.999, 0.999);
+            c.range("medium.phase.forward", forward, 0.0, 1.0);
+        }
+    }
+    let p = &doc.placement;
+    c.finite("medium.placement", &[p.scale, p.rotate_deg, p.translate].concat());
+    c.check(
+        p.fit.is_none_or(|fit| fit > 0.0 && fit.is_finite()),
+        "medium.placement.fit",
+        "must be positive",
+    );
+    if let Some(matrix) = p.matrix {
+        c.finite("medium.placement.matrix", &matrix.concat());
+    }
+}
+
+fn check_light(c: &mut Checker, path: &str, doc: &LightDoc) {
+    let (spectrum, scale) = match doc {
+        LightDoc::Rectangle { center, target, up, size, radiance, scale, .. } => {
+            c.finite(path, &[*center, *target, *up].concat());
+            c.check(center != target, format!("{path}.target"), "is the light's own centre");
+            c.check(
+                size.iter().all(|s| *s > 0.0 && s.is_finite()),
+                format!("{path}.size"),
+                "needs two positive lengths",
+            );
+            (Some(radiance), *scale)
+        }
+        LightDoc::Sphere { center, radius, radiance, scale, .. } => {
+            c.finite(path, center);
+            c.check(
+                *radius > 0.0 && radius.is_finite(),
+                format!("{path}.radius"),
+                "must be positive",
+            );
+            (Some(radiance), *scale)
+        }
+        LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => {
+            c.direction(&format!("{path}.toward"), *toward);
+            c.check(
+                (0.05..=170.0).contains(angular_diameter_deg),
+                format!("{path}.angular_diameter_deg"),
+                format!(
+                    "is {angular_diameter_deg}; from 0.05 to 170 degrees a scattered path can meet it"
+                ),
+            );
+            (Some(irradiance), *scale)
+        }
+        LightDoc::Environment { radiance, scale, .. } => (Some(radiance), *scale),
+        LightDoc::EnvironmentMap { file, rotate_deg, scale, .. } => {
+            c.finite(path, &[*rotate_deg]);
+            c.check(!file.is_empty(), format!("{path}.file"), "names no picture: choose an EXR or HDR file");
+            (None, *scale)
+        }
+    };
+    if let Some(spectrum) = spectrum {
+        c.spectrum(path, spectrum, 1e9);
+    }
+    c.range(format!("{path}.scale"), scale, 0.0, 1e9);
+}
+
+fn check_object(c: &mut Checker, path: &str, doc: &ObjectDoc) {
+    let albedo = match doc {
+        ObjectDoc::Ground { point, normal, albedo } => {
+            c.finite(path, point);
+            c.direction(&format!("{path}.normal"), *normal);
+            albedo
+        }
+        ObjectDoc::Box { center, size, rotate_deg, albedo } => {
+            c.finite(path, &[*center, *rotate_deg].concat());
+            c.check(
+                size.iter().all(|s| *s > 0.0 && s.is_finite()),
+                format!("{path}.size"),
+                "needs three positive lengths",
+            );
+            albedo
+        }
+    };
+    c.spectrum(&format!("{path}.albedo"), albedo, 1.0);
+}

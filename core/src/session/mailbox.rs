@@ -1,0 +1,182 @@
+//! What callers and the coordinator share: commands in, states out, one cancel flag per view.
+
+use super::{Job, Status, ViewId, ViewState};
+use crate::film::Snapshot;
+use crate::scene::Scene;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// A request to the coordinator.
+#[derive(Debug)]
+pub(super) enum Command {
+    Start { view: ViewId, generation: u64, job: Job },
+    Limits { view: ViewId, spp: Option<u32>, seconds: Option<f32> },
+    Pause { view: ViewId, paused: bool },
+    Step { view: ViewId },
+    Remove { view: ViewId },
+}
+
+/// One view as its callers see it.
+struct Public {
+    state: ViewState,
+    job: Option<Job>,
+    submitted: Instant,
+    /// The newest generation; a pass of an older one stops at its next row.
+    current: Arc<AtomicU64>,
+}
+
+impl Public {
+    fn new() -> Self {
+        Self {
+            state: ViewState {
+                generation: 0,
+                status: Status::Empty,
+                snapshot: None,
+                notices: Vec::new(),
+                scene: None,
+                first_picture_seconds: None,
+            },
+            job: None,
+            submitted: Instant::now(),
+            current: Arc::new(AtomicU64::new(0)),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Inner {
+    commands: Vec<Command>,
+    views: BTreeMap<ViewId, Public>,
+    generations: u64,
+    closed: bool,
+}
+
+pub(super) struct Mailbox {
+    inner: Mutex<Inner>,
+    arrived: Condvar,
+    wake: Box<dyn Fn() + Send + Sync>,
+}
+
+impl Mailbox {
+    pub fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
+        Self { inner: Mutex::default(), arrived: Condvar::new(), wake }
+    }
+
+    /// Every critical section below leaves `Inner` consistent, so a poisoned lock is still good.
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub fn submit(&self, view: ViewId, job: Job) -> u64 {
+        let mut inner = self.lock();
+        inner.generations += 1;
+        let generation = inner.generations;
+        let public = inner.views.entry(view).or_insert_with(Public::new);
+        public.state.generation = generation;
+        public.state.status = Status::Building;
+        public.state.first_picture_seconds = None;
+        public.submitted = Instant::now();
+        public.job = Some(job.clone());
+        public.current.store(generation, Ordering::Release);
+        // Latest wins: an older start that was not picked up yet is dropped.
+        inner.commands.retain(|c| !matches!(c, Command::Start { view: v, .. } if *v == view));
+        inner.commands.push(Command::Start { view, generation, job });
+        self.arrived.notify_one();
+        generation
+    }
+
+    pub fn restart(&self, view: ViewId) {
+        let job = self.lock().views.get(&view).and_then(|p| p.job.clone());
+        if let Some(job) = job {
+            self.submit(view, job);
+        }
+    }
+
+    pub fn send(&self, command: Command) {
+        let mut inner = self.lock();
+        match &command {
+            Command::Remove { view } => {
+                if let Some(public) = inner.views.remove(view) {
+                    public.current.store(u64::MAX, Ordering::Release);
+                }
+            }
+            Command::Limits { view, spp, seconds } => {
+                if let Some(job) = inner.views.get_mut(view).and_then(|p| p.job.as_mut()) {
+                    let doc = Arc::make_mut(&mut job.doc);
+                    (doc.render.spp, doc.render.seconds) = (*spp, *seconds);
+                }
+            }
+            _ => {}
+        }
+        inner.commands.push(command);
+        self.arrived.notify_one();
+    }
+
+    pub fn shut_down(&self) {
+        let mut inner = self.lock();
+        inner.closed = true;
+        for public in inner.views.values() {
+            public.current.store(u64::MAX, Ordering::Release);
+        }
+        self.arrived.notify_one();
+    }
+
+    pub fn state(&self, view: ViewId) -> ViewState {
+        let inner = self.lock();
+        inner.views.get(&view).map_or_else(|| Public::new().state, |p| p.state.clone())
+    }
+
+    /// Takes the waiting commands; sleeps until there is one if `wait`. `None` means shut down.
+    pub fn take(&self, wait: bool) -> Option<Vec<Command>> {
+        let mut inner = self.lock();
+        while wait && inner.commands.is_empty() && !inner.closed {
+            inner = self.arrived.wait(inner).unwrap_or_else(PoisonError::into_inner);
+        }
+        if inner.closed { None } else { Some(std::mem::take(&mut inner.commands)) }
+    }
+
+    /// The cell that holds the newest generation of a view.
+    pub fn current(&self, view: ViewId) -> Arc<AtomicU64> {
+        self.lock()
+            .views
+            .get(&view)
+            .map_or_else(|| Arc::new(AtomicU64::new(u64::MAX)), |p| Arc::clone(&p.current))
+    }
+
+    /// Changes the public state of a view if `generation` is still its newest, then wakes the caller.
+    fn publish(&self, view: ViewId, generation: u64, change: impl FnOnce(&mut Public)) {
+        {
+            let mut inner = self.lock();
+            match inner.views.get_mut(&view) {
+                Some(public) if public.state.generation == generation => change(public),
+                _ => return,
+            }
+        }
+        (self.wake)();
+    }
+
+    pub fn publish_status(&self, view: ViewId, generation: u64, status: Status) {
+        self.publish(view, generation, |p| p.state.status = status);
+    }
+
+    /// Publishes what freezing the scene has found.
+    pub fn publish_built(&self, view: ViewId, generation: u64, scene: &Scene, status: Status) {
+        self.publish(view, generation, |p| {
+            p.state.status = status;
+            p.state.notices.clone_from(&scene.notices);
+            p.state.scene = Some(scene.info.clone());
+        });
+    }
+
+    /// Publishes a picture together with the status that goes with it.
+    pub fn publish_snapshot(&self, view: ViewId, snapshot: Snapshot, status: Status) {
+        self.publish(view, snapshot.generation, |p| {
+            let waited = p.submitted.elapsed().as_secs_f64();
+            p.state.first_picture_seconds.get_or_insert(waited);
+            p.state.status = status;
+            p.state.snapshot = Some(Arc::new(snapshot));
+        });
+    }
+}

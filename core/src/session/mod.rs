@@ -1,0 +1,138 @@
+//! Progressive rendering of any number of views in the background.
+//!
+//! ```text
+//!   submit(view, Job) ──► mailbox (latest wins) ──► coordinator thread ──► worker pool (rows)
+//!   latest(view)      ◄── Arc<Snapshot>         ◄── end of every pass, then wake()
+//! ```
+//!
+//! The coordinator owns every film; nobody else ever locks one. A submission cancels the pass that
+//! runs (checked row by row) and starts a new generation; stale snapshots are never published.
+//! The caller's thread never waits for rendering, and an idle session uses no CPU.
+
+mod coordinator;
+mod mailbox;
+mod pass;
+mod preview;
+
+use crate::film::Snapshot;
+use crate::io::Library;
+use crate::scene::{SceneDoc, SceneInfo};
+use mailbox::{Command, Mailbox};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+/// Names a view of a session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ViewId(pub u32);
+
+/// What one view shall show. The scene is frozen from the document by the session; views that
+/// agree in it share one frozen scene, and grids are kept between edits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Job {
+    /// The document: scene, estimator, limits.
+    pub doc: Arc<SceneDoc>,
+    /// Whether a coarse picture comes before the first pass.
+    pub preview: bool,
+}
+
+/// What a view is doing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// Nothing was submitted yet.
+    Empty,
+    /// Files are read and the scene is frozen.
+    Building,
+    /// Passes run.
+    Rendering,
+    /// Paused by the user; a pass can be stepped.
+    Paused,
+    /// A limit was reached.
+    Finished,
+    /// The scene could not be built or a worker panicked; the message names the cause and the cure.
+    Failed(String),
+}
+
+/// A consistent look at one view.
+#[derive(Clone, Debug)]
+pub struct ViewState {
+    /// The newest submission.
+    pub generation: u64,
+    /// What it is doing.
+    pub status: Status,
+    /// The newest picture; it may belong to an older generation until the new one has a first picture.
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// What building repaired or wants to be known, e.g. NaN voxels that were set to 0.
+    pub notices: Vec<String>,
+    /// Numbers about the newest scene that was built.
+    pub scene: Option<SceneInfo>,
+    /// Seconds from the newest submission to its first picture.
+    pub first_picture_seconds: Option<f64>,
+}
+
+/// Progressive renders in the background. Dropping it cancels the work and joins its threads.
+pub struct Session {
+    mailbox: Arc<Mailbox>,
+    coordinator: Option<JoinHandle<()>>,
+}
+
+impl Session {
+    /// Starts an idle session that finds files through `library` and calls `wake` (from its own
+    /// thread) whenever there is something new to see.
+    ///
+    /// # Errors
+    /// When the operating system refuses a thread.
+    pub fn new(library: Library, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+        let mailbox = Arc::new(Mailbox::new(Box::new(wake)));
+        let theirs = Arc::clone(&mailbox);
+        let coordinator = std::thread::Builder::new()
+            .name("majorant-coordinator".into())
+            .spawn(move || coordinator::run(&theirs, library))?;
+        Ok(Self { mailbox, coordinator: Some(coordinator) })
+    }
+
+    /// Replaces what a view renders and returns the new generation. Never blocks on rendering.
+    pub fn submit(&self, view: ViewId, job: Job) -> u64 {
+        self.mailbox.submit(view, job)
+    }
+
+    /// Raises or lowers a view's limits without starting over.
+    pub fn set_limits(&self, view: ViewId, spp: Option<u32>, seconds: Option<f32>) {
+        self.mailbox.send(Command::Limits { view, spp, seconds });
+    }
+
+    /// Starts a view over with the same job.
+    pub fn restart(&self, view: ViewId) {
+        self.mailbox.restart(view);
+    }
+
+    /// Pauses after the pass that runs, or goes on.
+    pub fn set_paused(&self, view: ViewId, paused: bool) {
+        self.mailbox.send(Command::Pause { view, paused });
+    }
+
+    /// While paused: runs one pass of one sample per pixel.
+    pub fn step(&self, view: ViewId) {
+        self.mailbox.send(Command::Step { view });
+    }
+
+    /// The newest state of a view.
+    #[must_use]
+    pub fn state(&self, view: ViewId) -> ViewState {
+        self.mailbox.state(view)
+    }
+
+    /// Forgets a view and cancels its work.
+    pub fn remove(&self, view: ViewId) {
+        self.mailbox.send(Command::Remove { view });
+    }
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        self.mailbox.shut_down();
+        if let Some(thread) = self.coordinator.take() {
+            // A panicked coordinator has already reported itself as a failed view.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The sensor: the CIE 1931 2° observer, and linear sRGB (IEC 61966-2-1) from it.
+//!
+//! Normalised so that constant radiance 1 gives Y = 1; it then shows as linear sRGB
+//! (1.2048, 0.9483, 0.9089), the colour of illuminant E. Tables are sampled every 5 nm and linear
+//! between; their sources stand in `assets/spectra/README.md`.
+
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
+use glam::{Mat3, Vec3};
+use std::sync::LazyLock;
+
+const STEP_NM: f32 = 5.0;
+const ROWS: usize = 95;
+
+/// Three curves over 360–830 nm, sampled every 5 nm and linear between; zero outside.
+struct Table([Vec3; ROWS]);
+
+impl Table {
+    /// Reads `lambda_nm,a[,b,c]` lines; the files are part of the program, and a test reads them.
+    fn parse(csv: &str) -> Self {
+        let mut rows = [Vec3::ZERO; ROWS];
+        let lines = csv.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
+        for (row, line) in rows.iter_mut().zip(lines) {
+            let mut fields = line.split(',').skip(1).map(|f| f.trim().parse().unwrap_or(f32::NAN));
+            let first = fields.next().unwrap_or(f32::NAN);
+            *row = Vec3::new(first, fields.next().unwrap_or(first), fields.next().unwrap_or(first));
+        }
+        Self(rows)
+    }
+
+    fn map(&self, f: impl Fn(Vec3) -> Vec3) -> Self {
+        Self(self.0.map(f))
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss,
+        reason = "the index was checked to lie in the table")]
+    fn at(&self, lambda_nm: f32) -> Vec3 {
+        let x = (lambda_nm - LAMBDA_MIN_NM) / STEP_NM;
+        if !(0.0..=(ROWS - 1) as f32).contains(&x) {
+            return Vec3::ZERO;
+        }
+        let i = (x as usize).min(ROWS - 2);
+        self.0[i].lerp(self.0[i + 1], x - i as f32)
+    }
+
+    /// ∫ dλ by the trapezoid rule, exact for curves that are linear between the rows.
+    fn integral(&self) -> Vec3 {
+        let ends = 0.5 * (self.0[0] + self.0[ROWS - 1]);
+        (self.0.iter().sum::<Vec3>() - ends) * STEP_NM
+    }
+}
+
+static OBSERVER: LazyLock<Table> = LazyLock::new(|| {
+    let table = Table::parse(include_str!("../../../assets/spectra/cie1931_2deg_5nm.csv"));
+    let y = table.integral().y;
+    table.map(|xyz| xyz / y)
+});
+
+static RESPONSE: LazyLock<Table> = LazyLock::new(|| OBSERVER.map(|xyz| SRGB_FROM_XYZ * xyz));
+
+static BASIS: LazyLock<Table> =
+    LazyLock::new(|| Table::parse(include_str!("../../../assets/spectra/srgb_basis_5nm.csv")));
+
+static ILLUMINANT: LazyLock<Table> = LazyLock::new(|| {
+    let table = Table::parse(include_str!("../../../assets/spectra/d65_5nm.csv"));
+    let mut product = Table(table.0);
+    for (row, xyz) in product.0.iter_mut().zip(&OBSERVER.0) {
+        *row *= xyz.y;
+    }
+    let y = product.integral().y;
+    table.map(|power| power / y)
+});
+
+/// Linear sRGB from XYZ (IEC 61966-2-1, D65), by columns.
+const SRGB_FROM_XYZ: Mat3 = Mat3::from_cols(
+    Vec3::new(3.240_454_2, -0.969_266, 0.055_643_4),
+    Vec3::new(-1.537_138_5, 1.876_010_8, -0.204_025_9),
+    Vec3::new(-0.498_531_4, 0.041_556, 1.057_225_2),
+);
+
+/// What radiance 1 per nanometre at one wavelength adds to the film, in linear sRGB per nm.
+#[must_use]
+pub fn response(lambda_nm: f32) -> Vec3 {
+    RESPONSE.at(lambda_nm)
+}
+
+/// The three basis spectra at a wavelength: each in 0..1, together 1, and under daylight (D65) each
+/// shows as one primary of sRGB. After Mallett and Yuksel 2019.
+pub(super) fn basis(lambda_nm: f32) -> Vec3 {
+    BASIS.at(lambda_nm)
+}
+
+/// Daylight (CIE D65), scaled to Y = 1: it shows as linear sRGB (1, 1, 1).
+pub(super) fn daylight(lambda_nm: f32) -> f32 {
+    ILLUMINANT.at(lambda_nm).x
+}
+
+/// A displayable colour (linear sRGB, 0 to 1) that stands for a wavelength, to label axes with.
+#[must_use]
+pub fn wavelength_colour(lambda_nm: f32) -> [f32; 3] {
+    // Monochromatic light lies outside sRGB: lift it into the gamut, then scale to the curve's height.
+    let rgb = response(lambda_nm);
+    let lifted = rgb - Vec3::splat(rgb.min_element().min(0.0));
+    let visible = (OBSERVER.at(lambda_nm).element_sum() * 55.0).clamp(0.0, 1.0);
+    (lifted / lifted.max_element().max(1e-9) * visible).to_array()
+}
+
+/// ∫ f(λ) dλ over the rendered range by the midpoint rule at 1 nm.
+pub(super) fn integrate(f: impl Fn(f32) -> Vec3) -> Vec3 {
+    let mut sum = Vec3::ZERO;
+    let mut lambda = LAMBDA_MIN_NM + 0.5;
+    while lambda < LAMBDA_MAX_NM {
+        sum += f(lambda);
+        lambda += 1.0;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: Vec3, b: [f32; 3], tolerance: f32) {
+        assert!((a - Vec3::from(b)).abs().max_element() < tolerance, "{a} is not {b:?}");
+    }
+
+    #[test]
+    fn constant_radiance_shows_as_illuminant_e() {
+        close(integrate(response), [1.2048, 0.9483, 0.9089], 2e-4);
+    }
+
+    #[test]
+    fn daylight_is_white_and_the_basis_gives_the_primaries() {
+        close(integrate(|l| response(l) * daylight(l)), [1.0; 3], 2e-3);
+        for (axis, primary) in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().enumerate() {
+            close(integrate(|l| response(l) * daylight(l) * basis(l)[axis]), primary, 2e-3);
+        }
+    }
+
+    #[test]
+    fn the_basis_is_a_partition_of_unity() {
+        for i in 0..=470u16 {
+            let b = basis(360.0 + f32::from(i));
+            assert!((b.element_sum() - 1.0).abs() < 1e-5 && b.min_element() >= 0.0, "{b}");
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! A spectrum as the renderer evaluates it.
+
+use super::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, observer, presets};
+use glam::Vec3;
+
+/// What a spectrum is a spectrum of; it decides how linear sRGB becomes one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Extinction, albedo, reflectance: equal components are constant over wavelength.
+    Coefficient,
+    /// Radiance: equal components are daylight, so that the film shows the colour that was written.
+    Radiance,
+}
+
+/// A frozen spectrum: a function of wavelength, and the three numbers that stand for it in RGB mode.
+///
+/// In RGB mode a component is the spectrum's mean under the positive part of the sensor's response for
+/// that channel: a constant stays constant, and a mean never leaves the spectrum's own range.
+#[derive(Clone, Debug)]
+pub struct Spectrum {
+    shape: Shape,
+    rgb: Vec3,
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    Constant(f32),
+    Points { points: Vec<ControlPoint>, outside: Outside },
+    Rgb(Vec3),
+    RgbRadiance(Vec3),
+}
+
+impl Spectrum {
+    /// Freezes an editable spectrum. Presets that do not exist were refused when it was read or
+    /// validated; here they are zero.
+    #[must_use]
+    pub fn new(doc: &SpectrumDoc, quantity: Quantity) -> Self {
+        let shape = match doc {
+            SpectrumDoc::Constant(value) => Shape::Constant(*value),
+            SpectrumDoc::Points { points, outside } => {
+                Shape::Points { points: points.clone(), outside: *outside }
+            }
+            SpectrumDoc::Preset(id) => presets::find(id)
+                .and_then(|p| SpectrumDoc::parse_points(p.points).ok())
+                .map_or(Shape::Constant(0.0), |points| Shape::Points {
+                    points,
+                    outside: Outside::Hold,
+                }),
+            SpectrumDoc::Rgb(rgb) => match quantity {
+                Quantity::Coefficient => Shape::Rgb((*rgb).into()),
+                Quantity::Radiance => Shape::RgbRadiance((*rgb).into()),
+            },
+        };
+        let rgb = match &shape {
+            Shape::Constant(value) => Vec3::splat(*value),
+            Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb,
+            Shape::Points { .. } => band_means(&shape),
+        };
+        Self { shape, rgb }
+    }
+
+    /// The same value at every wavelength.
+    #[must_use]
+    pub fn constant(value: f32) -> Self {
+        Self { shape: Shape::Constant(value), rgb: Vec3::splat(value) }
+    }
+
+    /// Every value multiplied by `factor`.
+    #[must_use]
+    pub fn scaled(mut self, factor: f32) -> Self {
+        self.rgb *= factor;
+        match &mut self.shape {
+            Shape::Constant(value) => *value *= factor,
+            Shape::Points { points, .. } => points.iter_mut().for_each(|p| p.value *= factor),
+            Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb *= factor,
+        }
+        self
+    }
+
+    /// The value at a wavelength in nanometres.
+    #[must_use]
+    pub fn at(&self, lambda_nm: f32) -> f32 {
+        self.shape.at(lambda_nm)
+    }
+
+    /// The three components of RGB mode.
+    #[must_use]
+    pub fn rgb(&self) -> Vec3 {
+        self.rgb
+    }
+
+    /// The largest value over the rendered wavelengths.
+    #[must_use]
+    pub fn max_over_wavelengths(&self) -> f32 {
+        let mut max = self.at(LAMBDA_MIN_NM).max(self.at(LAMBDA_MAX_NM));
+        match &self.shape {
+            Shape::Constant(_) => {}
+            // A piecewise linear function is largest at a point or at an end of the range.
+            Shape::Points { points, .. } => {
+                for p in points.iter().filter(|p| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&p.lambda_nm)) {
+                    max = max.max(p.value);
+                }
+            }
+            Shape::Rgb(rgb) => max = rgb.max_element(),
+            Shape::RgbRadiance(_) => {
+                let mut lambda = LAMBDA_MIN_NM;
+                while lambda <= LAMBDA_MAX_NM {
+                    max = max.max(self.at(lambda));
+                    lambda += 5.0;
+                }
+            }
+        }
+        max
+    }
+}
+
+impl Shape {
+    fn at(&self, lambda_nm: f32) -> f32 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Points { points, outside } => interpolate(points, *outside, lambda_nm),
+            Self::Rgb(rgb) => observer::basis(lambda_nm).dot(*rgb),
+            Self::RgbRadiance(rgb) => {
+                observer::basis(lambda_nm).dot(*rgb) * observer::daylight(lambda_nm)
+            }
+        }
+    }
+}
+
+fn interpolate(points: &[ControlPoint], outside: Outside, lambda_nm: f32) -> f32 {
+    let after = points.partition_point(|p| p.lambda_nm <= lambda_nm);
+    let beyond = |end: &ControlPoint| match outside {
+        Outside::Hold => end.value,
+        Outside::Zero if end.lambda_nm == lambda_nm => end.value,
+        Outside::Zero => 0.0,
+    };
+    match (after.checked_sub(1).and_then(|i| points.get(i)), points.get(after)) {
+        (Some(a), Some(b)) => {
+            let s = (lambda_nm - a.lambda_nm) / (b.lambda_nm - a.lambda_nm);
+            a.value + (b.value - a.value) * s
+        }
+        (Some(end), None) | (None, Some(end)) => beyond(end),
+        (None, None) => 0.0,
+    }
+}
+
+fn band_means(shape: &Shape) -> Vec3 {
+    let weight = |lambda| observer::response(lambda).max(Vec3::ZERO);
+    observer::integrate(|l| weight(l) * shape.at(l)) / observer::integrate(weight)
+}
+
+impl SpectrumDoc {
+    /// The value at a wavelength in nanometres, as a coefficient.
+    #[must_use]
+    pub fn value_at(&self, lambda_nm: f32) -> f32 {
+        Spectrum::new(self, Quantity::Coefficient).at(lambda_nm)
+    }
+
+    /// Every number in it, for validation.
+    #[must_use]
+    pub fn values(&self) -> Vec<f32> {
+        match self {
+            Self::Constant(value) => vec![*value],
+            Self::Rgb(rgb) => rgb.to_vec(),
+            Self::Points { .. } | Self::Preset(_) => self
+                .control_points()
+                .map(|(points, _)| points.iter().map(|p| p.value).collect())
+                .unwrap_or_default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report() -> SpectrumDoc {
+        SpectrumDoc::Preset("report-plume".into())
+    }
+
+    #[test]
+    fn points_are_linear_between_and_hold_or_vanish_beyond() {
+        let s = Spectrum::new(&report(), Quantity::Coefficient);
+        for (lambda, expected) in [(360.0, 8.0), (430.0, 8.0), (485.0, 24.0), (540.0, 40.0), (556.0, 24.0), (700.0, 8.0)] {
+            assert!((s.at(lambda) - expected).abs() < 1e-4, "{lambda}");
+        }
+        assert_eq!(s.max_over_wavelengths(), 40.0);
+        let (points, _) = report().control_points().expect("a preset of points");
+        let zero = Spectrum::new(&SpectrumDoc::Points { points, outside: Outside::Zero }, Quantity::Coefficient);
+        assert_eq!([zero.at(429.0), zero.at(430.0), zero.at(572.0), zero.at(573.0)], [0.0, 8.0, 8.0, 0.0]);
+    }
+
+    #[test]
+    fn rgb_components_of_a_constant_are_the_constant_and_stay_within_range() {
+        assert_eq!(Spectrum::constant(0.7).rgb(), Vec3::splat(0.7));
+        let rgb = Spectrum::new(&report(), Quantity::Coefficient).rgb();
+        assert!(rgb.min_element() >= 8.0 && rgb.max_element() <= 40.0 && rgb.y > rgb.x && rgb.y > rgb.z, "{rgb}");
+    }
+}

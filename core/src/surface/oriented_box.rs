@@ -1,0 +1,70 @@
+//! A solid box of any orientation.
+
+use super::SurfaceHit;
+use crate::math::Ray;
+use glam::{Quat, Vec3};
+
+/// A box by centre, half edge lengths and rotation.
+#[derive(Clone, Copy, Debug)]
+pub struct OrientedBox {
+    /// Its centre.
+    pub center: Vec3,
+    /// Half of its edge lengths.
+    pub half_size: Vec3,
+    /// Turns the box's axes into the world's.
+    pub world_from_box: Quat,
+}
+
+impl OrientedBox {
+    /// The nearest meeting at `0 < t < t_max`: entry from outside, exit from inside.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
+        let box_from_world = self.world_from_box.inverse();
+        let origin = box_from_world * (ray.origin - self.center);
+        let direction = box_from_world * ray.direction;
+        let inverse = direction.recip();
+        let a = (-self.half_size - origin) * inverse;
+        let b = (self.half_size - origin) * inverse;
+        let (near, far) = (a.min(b), a.max(b));
+        let (t0, t1) = (near.max_element(), far.min_element());
+        if t0.is_nan() || t1.is_nan() || t0 >= t1 {
+            return None;
+        }
+        let (t, faces) = if t0 > 0.0 { (t0, near) } else { (t1, far) };
+        if !(t > 0.0 && t < t_max) {
+            return None;
+        }
+        let local = origin + direction * t;
+        let mut normal = Vec3::ZERO;
+        for axis in 0..3 {
+            if faces[axis] == t {
+                normal[axis] = local[axis].signum();
+                break;
+            }
+        }
+        Some(SurfaceHit { t, normal: self.world_from_box * normal })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entry_exit_and_miss() {
+        let cube = OrientedBox {
+            center: Vec3::new(0.0, 0.0, 5.0),
+            half_size: Vec3::new(1.0, 1.0, 1.0),
+            world_from_box: Quat::from_rotation_y(std::f32::consts::FRAC_PI_2),
+        };
+        let ray = Ray { origin: Vec3::new(0.1, 0.2, 0.0), direction: Vec3::Z };
+        let hit = cube.intersect(&ray, f32::INFINITY).expect("the ray meets the box");
+        assert!((hit.t - 4.0).abs() < 1e-5 && (hit.normal - Vec3::NEG_Z).length() < 1e-5);
+        assert!(cube.intersect(&ray, 3.9).is_none());
+        let inside = Ray { origin: Vec3::new(0.1, 0.2, 5.0), direction: Vec3::Z };
+        let hit = cube.intersect(&inside, f32::INFINITY).expect("from inside");
+        assert!((hit.t - 1.0).abs() < 1e-5 && (hit.normal - Vec3::Z).length() < 1e-5);
+        let beside = Ray { origin: Vec3::new(3.0, 0.2, 0.0), direction: Vec3::Z };
+        assert!(cube.intersect(&beside, f32::INFINITY).is_none());
+    }
+}

@@ -1,0 +1,35 @@
+//! A sphere.
+
+use super::SurfaceHit;
+use crate::math::Ray;
+use glam::Vec3;
+
+/// A sphere by centre and radius.
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    /// Its centre.
+    pub center: Vec3,
+    /// Its radius.
+    pub radius: f32,
+}
+
+impl Sphere {
+    /// The nearest meeting at `0 < t < t_max`.
+    #[must_use]
+    pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
+        // With unit direction: distance to the centre's foot, then Pythagoras from the foot, which
+        // keeps its digits for small and distant spheres (Haines et al. 2019).
+        let to_center = self.center - ray.origin;
+        let along = to_center.dot(ray.direction);
+        let off_axis = to_center - ray.direction * along;
+        let half_chord2 = self.radius * self.radius - off_axis.length_squared();
+        if half_chord2 <= 0.0 {
+            return None;
+        }
+        let half_chord = half_chord2.sqrt();
+        let inside = to_center.length_squared() < self.radius * self.radius;
+        let t = if inside { along + half_chord } else { along - half_chord };
+        (t > 0.0 && t < t_max)
+            .then(|| SurfaceHit { t, normal: (ray.at(t) - self.center).normalize() })
+    }
+}

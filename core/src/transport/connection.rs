@@ -1,0 +1,56 @@
+//! Next-event estimation: a connection from a vertex to a point drawn on a light.
+//!
+//! Every collision on the way is taken as null (ratio tracking), so that the connection always
+//! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
+
+use super::{PathWeights, Trace, Vertex, World};
+use crate::light::Emitter;
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::spectrum::{Components, Sampled};
+
+/// A connection that has reached its light.
+#[derive(Clone, Copy, Debug)]
+pub struct Connection<const N: usize> {
+    /// Weights of the whole path, camera to light, as made by the connection.
+    pub weights: PathWeights<N>,
+    /// Emitted radiance.
+    pub radiance: Sampled<N>,
+}
+
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss,
+    reason = "an index among few lights")]
+impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
+    /// Draws a light (uniformly) and a direction towards it, and walks there. `None` if nothing arrives.
+    pub fn connect(
+        &self,
+        vertex: &Vertex,
+        path: &PathWeights<N>,
+        trace: &mut Trace,
+    ) -> Option<Connection<N>> {
+        let lights = &self.scene.lights;
+        let index = (trace.sampler.next_1d() * lights.len() as f32) as usize;
+        let u = trace.sampler.next_2d();
+        let light = lights.get(index)?;
+        let sample = light.sample(vertex.point(), u)?;
+        let density = vertex.density(&self.scene.phase, sample.direction);
+        if density <= 0.0 {
+            return None;
+        }
+        let ray = Ray { origin: vertex.point(), direction: sample.direction };
+        // Stops short of the light itself.
+        let t_max = sample.distance * (1.0 - 1e-4);
+        if self.scene.nearest_surface(&ray, t_max, false).role().is_some() {
+            return None;
+        }
+        let mut weights = path.connect(density, sample.density / lights.len() as f32);
+        let mut walk = self.walk(&ray, t_max);
+        while let Some(collision) = walk.next_collision(trace, &mut weights) {
+            weights.null_by_ratio(&collision);
+            if weights.is_dark() {
+                return None;
+            }
+        }
+        Some(Connection { weights, radiance: light.radiance(sample.direction, &self.components) })
+    }
+}

@@ -1,0 +1,18 @@
+//! Shared algebra of the estimators, on the null-scattering path integral of Miller, Georgiev and
+//! Jarosz 2019: the walk through majorant segments, event probabilities, path weights, connections.
+//!
+//! Each has this one home; an estimator's file puts them together and holds the whole path loop.
+
+mod connection;
+mod event;
+mod vertex;
+mod walk;
+mod weights;
+mod world;
+
+pub use connection::Connection;
+pub use event::{Collision, Event};
+pub use vertex::Vertex;
+pub use walk::Walk;
+pub use weights::PathWeights;
+pub use world::{Arrival, PathSettings, Trace, World};

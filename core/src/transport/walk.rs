@@ -1,0 +1,67 @@
+//! Free flight through majorant segments.
+//!
+//! An optical depth with density e^(−τ) is drawn once per collision and spent segment by segment, so
+//! that a ray may cross any number of segments at the price of one logarithm.
+
+use super::{Collision, PathWeights, Trace};
+use crate::math::{Ray, UnitBox};
+use crate::medium::{LocalMedium, MajorantSegment};
+use crate::scene::{Absorption, Scene};
+
+/// A walk along one ray, from tentative collision to tentative collision.
+pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
+    medium: &'m L,
+    ray_in_world: Ray,
+    ray_in_medium: Ray,
+    segments: Option<L::Segments<'m>>,
+    segment: Option<MajorantSegment<N>>,
+    t: f32,
+    absorption: Absorption,
+}
+
+impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
+    /// Starts at the ray's origin and ends where the ray leaves the medium, at `t_max` at the latest.
+    #[must_use]
+    pub fn new(medium: &'m L, scene: &Scene, ray: &Ray, t_max: f32, absorption: Absorption) -> Self {
+        let ray_in_medium = Ray {
+            origin: scene.medium_from_world.transform_point3(ray.origin),
+            direction: scene.medium_from_world.transform_vector3(ray.direction),
+        };
+        let inside = UnitBox::interval(&ray_in_medium)
+            .map(|(t0, t1)| (t0, t1.min(t_max)))
+            .filter(|(t0, t1)| t0 < t1);
+        let mut segments = inside.map(|(t0, t1)| medium.segments(&ray_in_medium, t0, t1));
+        let segment = segments.as_mut().and_then(Iterator::next);
+        let t = segment.as_ref().map_or(0.0, |s| s.t0);
+        Self { medium, ray_in_world: *ray, ray_in_medium, segments, segment, t, absorption }
+    }
+
+    /// Flies to the next tentative collision and multiplies the way there into `weights`; `None` once
+    /// the walk has left the medium.
+    #[inline]
+    pub fn next_collision(
+        &mut self,
+        trace: &mut Trace,
+        weights: &mut PathWeights<N>,
+    ) -> Option<Collision<N>> {
+        self.segment?;
+        let mut optical_depth = trace.sampler.next_optical_depth();
+        while let Some(segment) = self.segment {
+            let hero = segment.majorant.hero();
+            let t = self.t + optical_depth / hero;
+            if hero > 0.0 && t < segment.t1 {
+                weights.pass(segment.majorant, t - self.t);
+                self.t = t;
+                trace.lookups += 1;
+                let coefficients =
+                    self.medium.coefficients(self.ray_in_medium.at(t), &segment);
+                return Some(Collision::new(self.ray_in_world.at(t), coefficients, self.absorption));
+            }
+            weights.pass(segment.majorant, segment.t1 - self.t);
+            optical_depth -= hero * (segment.t1 - self.t);
+            self.t = segment.t1;
+            self.segment = self.segments.as_mut().and_then(Iterator::next);
+        }
+        None
+    }
+}

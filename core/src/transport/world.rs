@@ -1,0 +1,132 @@
+//! A scene at the components of one path: what an estimator asks.
+
+use super::{Vertex, Walk};
+use crate::light::Emitter;
+use crate::math::{Ray, Sampler};
+use crate::medium::LocalMedium;
+use crate::scene::{Absorption, NearestSurface, Scene};
+use crate::spectrum::{Components, Sampled};
+use crate::surface::Role;
+
+/// Choices that every path of a render shares.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathSettings {
+    /// What happens at a collision that may absorb.
+    pub absorption: Absorption,
+    /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.
+    pub max_depth: u32,
+    /// Russian roulette from this number of real vertices on; `u32::MAX` for never.
+    pub roulette_depth: u32,
+}
+
+/// The random numbers of one path, and what it has cost.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// Random numbers.
+    pub sampler: Sampler,
+    /// Evaluations of the medium's coefficients.
+    pub lookups: u32,
+}
+
+impl Trace {
+    /// A path that has cost nothing yet.
+    #[must_use]
+    pub fn new(sampler: Sampler) -> Self {
+        Self { sampler, lookups: 0 }
+    }
+}
+
+/// Light that a ray meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival<const N: usize> {
+    /// Emitted radiance.
+    pub radiance: Sampled<N>,
+    /// Density with which light sampling, including the choice of the light, would have drawn the
+    /// ray's direction at its origin; per steradian.
+    pub density: f32,
+}
+
+/// A scene, its medium and its spectra at the components of one path.
+pub struct World<'a, L, C, const N: usize> {
+    /// The frozen scene.
+    pub scene: &'a Scene,
+    /// The medium at the components.
+    pub medium: L,
+    /// Wavelengths or channels.
+    pub components: C,
+    /// Choices that every path shares.
+    pub settings: PathSettings,
+}
+
+#[allow(clippy::cast_precision_loss, reason = "scenes have few lights")]
+impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
+    /// The walk through the medium along a ray, up to `t_max`.
+    #[must_use]
+    pub fn walk(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
+        Walk::new(&self.medium, self.scene, ray, t_max, self.settings.absorption)
+    }
+
+    /// The surface that a ray meets first. Rays from the camera pass through hidden lights.
+    #[must_use]
+    pub fn nearest_surface(&self, ray: &Ray, from_camera: bool) -> NearestSurface<'_> {
+        self.scene.nearest_surface(ray, f32::INFINITY, from_camera)
+    }
+
+    /// Every light that a ray meets at its end: the one that `end` belongs to, or all that lie behind
+    /// the scene. The camera does not see hidden ones.
+    pub fn arrivals(
+        &self,
+        ray: &Ray,
+        end: &NearestSurface,
+        from_camera: bool,
+    ) -> impl Iterator<Item = Arrival<N>> {
+        let (ray, t, role) = (*ray, end.t(), end.role());
+        let count = self.scene.lights.len() as f32;
+        self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {
+            let met = match role {
+                Some(Role::Light(met)) => *met == index,
+                Some(Role::Diffuse(_)) => false,
+                None => light.is_behind(ray.direction),
+            };
+            (met && (light.visible || !from_camera)).then(|| Arrival {
+                radiance: light.radiance(ray.direction, &self.components),
+                density: light.density(ray.origin, ray.direction, t) / count,
+            })
+        })
+    }
+
+    /// The diffuse vertex at which a ray ends, with its albedo; `None` on lights and beyond the scene.
+    #[must_use]
+    pub fn diffuse_vertex(&self, ray: &Ray, end: &NearestSurface) -> Option<(Vertex, Sampled<N>)> {
+        let Some(Role::Diffuse(albedo)) = end.role() else { return None };
+        let point = ray.at(end.t());
+        let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
+        // Off the surface by more than the rounding of the point's own coordinates.
+        let lift = 2e-5 * (1.0 + point.abs().max_element() + end.t());
+        Some((
+            Vertex::Surface { point: point + normal * lift, normal },
+            self.components.evaluate(albedo),
+        ))
+    }
+
+    /// Ends faint paths at random: continues with a probability that grows with the throughput.
+    /// Returns whether the path goes on, its weights adjusted.
+    pub fn survives_roulette(
+        &self,
+        vertices: u32,
+        weights: &mut super::PathWeights<N>,
+        trace: &mut Trace,
+    ) -> bool {
+        if vertices < self.settings.roulette_depth {
+            return true;
+        }
+        let q = weights.throughput().clamp(0.05, 1.0);
+        if q < 1.0 {
+            if trace.sampler.next_1d() >= q {
+                return false;
+            }
+            weights.survive(q);
+        }
+        true
+    }
+}
