@@ -9,6 +9,7 @@
 //! Widgets edit a draft of the document; the draft comes back as one command and is applied after the
 //! frame is drawn. What has to be rendered again is decided by comparing documents, nowhere else.
 
+pub mod cli;
 pub mod lab;
 pub mod model;
 pub mod panels;

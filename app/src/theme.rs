@@ -4,8 +4,8 @@
 //! marks what is selected or live; amber warns, red is reserved for what is wrong or biased.
 
 use egui::{
-    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow,
-    Stroke, Style, TextStyle, Theme, Visuals, style::ScrollStyle, style::WidgetVisuals, vec2,
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke,
+    Style, TextStyle, Theme, Visuals, style::ScrollStyle, style::WidgetVisuals, vec2,
 };
 
 /// The grid unit: every gap is a multiple of it.
@@ -173,7 +173,8 @@ fn visuals(theme: Theme, p: &Palette) -> Visuals {
     };
     v.widgets.noninteractive = widget(p.panel, p.line, p.text);
     v.widgets.inactive = widget(p.control, Color32::TRANSPARENT, p.text);
-    v.widgets.hovered = widget(p.control.lerp_to_gamma(p.accent, 0.12), p.accent.gamma_multiply(0.6), p.strong);
+    v.widgets.hovered =
+        widget(p.control.lerp_to_gamma(p.accent, 0.12), p.accent.gamma_multiply(0.6), p.strong);
     v.widgets.active = widget(p.accent_fill, p.accent, p.strong);
     v.widgets.open = widget(p.control, p.line, p.strong);
     v.selection.bg_fill = p.accent_fill;

@@ -1,1 +1,12 @@
-//! h
+//! What the tests share: statistics, scenes, references, volume files.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    missing_docs,
+    reason = "test support: it may panic, and prints its tables"
+)]
+
+pub mod render;
+pub mod stats;
+pub mod volumes;

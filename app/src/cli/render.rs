@@ -111,10 +111,7 @@ fn writer(path: &Path) -> Result<Writer, Failure> {
     match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
         Some("exr") => Ok(export::write_exr),
         Some("png") => Ok(|path, snapshot, doc| export::write_png(path, snapshot, &doc.view)),
-        _ => Err(Failure::Message(format!(
-            "{}: give the result an ending of .exr or .png",
-            path.display()
-        ))),
+        _ => Err(Failure::Message(format!("{}: give the result an ending of .exr or .png", path.display()))),
     }
 }
 

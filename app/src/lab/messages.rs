@@ -64,12 +64,21 @@ impl Messages {
 }
 
 /// Shows one line with its dismiss button; `number` is absent for a line that cannot be dismissed.
-pub fn line_ui(ui: &mut Ui, severity: Severity, text: &str, number: Option<u64>, commands: &mut Vec<Command>) {
+pub fn line_ui(
+    ui: &mut Ui,
+    severity: Severity,
+    text: &str,
+    number: Option<u64>,
+    commands: &mut Vec<Command>,
+) {
     let palette = Palette::get(ui);
     let colour = if severity == Severity::Error { palette.error } else { palette.good };
-    let frame = Frame::NONE
-        .fill(palette.bar.lerp_to_gamma(colour, 0.14))
-        .inner_margin(Margin { left: 12, right: 8, top: 4, bottom: 4 });
+    let frame = Frame::NONE.fill(palette.bar.lerp_to_gamma(colour, 0.14)).inner_margin(Margin {
+        left: 12,
+        right: 8,
+        top: 4,
+        bottom: 4,
+    });
     let response = frame
         .show(ui, |ui| {
             ui.horizontal(|ui| {

@@ -23,27 +23,75 @@ const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 /// Every key. Where one is another plus Shift, the one with Shift comes first, for egui ignores extra
 /// Shift keys.
 pub const KEYS: &[Shortcut] = &[
-    Shortcut { keys: key(CTRL, Key::N), text: "New scene", command: || Command::Open(crate::model::Source::New) },
+    Shortcut {
+        keys: key(CTRL, Key::N),
+        text: "New scene",
+        command: || Command::Open(crate::model::Source::New),
+    },
     Shortcut { keys: key(CTRL, Key::O), text: "Open scene", command: || Command::Ask(Purpose::OpenScene) },
-    Shortcut { keys: key(CTRL_SHIFT, Key::O), text: "Open volume", command: || Command::Ask(Purpose::OpenVolume) },
+    Shortcut {
+        keys: key(CTRL_SHIFT, Key::O),
+        text: "Open volume",
+        command: || Command::Ask(Purpose::OpenVolume),
+    },
     Shortcut { keys: key(CTRL, Key::S), text: "Save scene", command: || Command::Save },
-    Shortcut { keys: key(CTRL_SHIFT, Key::S), text: "Save scene as", command: || Command::Ask(Purpose::SaveScene) },
+    Shortcut {
+        keys: key(CTRL_SHIFT, Key::S),
+        text: "Save scene as",
+        command: || Command::Ask(Purpose::SaveScene),
+    },
     Shortcut { keys: key(CTRL, Key::E), text: "Export EXR", command: || Command::Ask(Purpose::ExportExr) },
-    Shortcut { keys: key(CTRL_SHIFT, Key::E), text: "Export PNG", command: || Command::Ask(Purpose::ExportPng) },
+    Shortcut {
+        keys: key(CTRL_SHIFT, Key::E),
+        text: "Export PNG",
+        command: || Command::Ask(Purpose::ExportPng),
+    },
     Shortcut { keys: key(CTRL, Key::Z), text: "Undo", command: || Command::Undo },
     Shortcut { keys: key(CTRL_SHIFT, Key::Z), text: "Redo", command: || Command::Redo },
     Shortcut { keys: key(CTRL, Key::Y), text: "Redo", command: || Command::Redo },
     Shortcut { keys: key(CTRL, Key::Q), text: "Quit", command: || Command::Quit },
-    Shortcut { keys: key(Modifiers::NONE, Key::P), text: "Pause or resume", command: || Command::TogglePause },
-    Shortcut { keys: key(Modifiers::NONE, Key::Period), text: "Step, while paused", command: || Command::Step },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::P),
+        text: "Pause or resume",
+        command: || Command::TogglePause,
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::Period),
+        text: "Step, while paused",
+        command: || Command::Step,
+    },
     Shortcut { keys: key(Modifiers::NONE, Key::R), text: "Restart", command: || Command::Restart },
-    Shortcut { keys: key(Modifiers::NONE, Key::E), text: "Half a stop brighter", command: || Command::Expose(0.5) },
-    Shortcut { keys: key(Modifiers::SHIFT, Key::E), text: "Half a stop darker", command: || Command::Expose(-0.5) },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::E),
+        text: "Half a stop brighter",
+        command: || Command::Expose(0.5),
+    },
+    Shortcut {
+        keys: key(Modifiers::SHIFT, Key::E),
+        text: "Half a stop darker",
+        command: || Command::Expose(-0.5),
+    },
     Shortcut { keys: key(Modifiers::NONE, Key::F), text: "Fit the picture", command: || Command::Fit },
-    Shortcut { keys: key(Modifiers::NONE, Key::Num1), text: "Picture at 100 %", command: || Command::Zoom(1.0) },
-    Shortcut { keys: key(Modifiers::NONE, Key::OpenBracket), text: "Left column", command: || Command::ToggleSceneColumn },
-    Shortcut { keys: key(Modifiers::NONE, Key::CloseBracket), text: "Right column", command: || Command::ToggleMethodColumn },
-    Shortcut { keys: key(Modifiers::NONE, Key::F1), text: "This list  (also ?)", command: || Command::ToggleShortcuts },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::Num1),
+        text: "Picture at 100 %",
+        command: || Command::Zoom(1.0),
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::OpenBracket),
+        text: "Left column",
+        command: || Command::ToggleSceneColumn,
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::CloseBracket),
+        text: "Right column",
+        command: || Command::ToggleMethodColumn,
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::F1),
+        text: "This list  (also ?)",
+        command: || Command::ToggleShortcuts,
+    },
 ];
 
 /// Gestures on the picture and in panels, for the help window.

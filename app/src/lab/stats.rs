@@ -37,8 +37,11 @@ impl Stats {
         let (spp, seconds) = (f64::from(snapshot.spp), snapshot.seconds);
         let spp_per_second = per(spp, seconds);
         let lookups = snapshot.tally.lookups as f64;
-        let by_samples = limits.spp.map(|limit| (spp / f64::from(limit.max(1)), spp_per_second.map(|rate| (f64::from(limit) - spp) / rate)));
-        let by_time = limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
+        let by_samples = limits.spp.map(|limit| {
+            (spp / f64::from(limit.max(1)), spp_per_second.map(|rate| (f64::from(limit) - spp) / rate))
+        });
+        let by_time =
+            limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
         let limits = [by_samples, by_time];
         let progress = limits.iter().flatten().map(|(progress, _)| *progress).reduce(f64::max);
         let eta = limits.iter().flatten().filter_map(|(_, eta)| *eta).reduce(f64::min);

@@ -85,7 +85,13 @@ impl Tasks {
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn export(&self, png: bool, path: PathBuf, snapshot: Arc<Snapshot>, doc: SceneDoc) -> Result<(), String> {
+    pub fn export(
+        &self,
+        png: bool,
+        path: PathBuf,
+        snapshot: Arc<Snapshot>,
+        doc: SceneDoc,
+    ) -> Result<(), String> {
         self.spawn("export", move || {
             let written = match png {
                 true => export::write_png(&path, &snapshot, &doc.view).map_err(|e| e.to_string()),
@@ -96,9 +102,22 @@ impl Tasks {
     }
 }
 
+/// Names of the grids that can be read; the formats without names hold one grid.
 fn names(path: &Path) -> Result<Vec<String>, String> {
-    let grids = volume::list_grids(path).map_err(|error| error.to_string())?;
-    Ok(grids.into_iter().map(|grid| grid.name).collect())
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("vdb")) {
+        let read = volume::read_volume(path, None, &volume::Limits::default());
+        return read.map(|_| Vec::new()).map_err(|error| error.to_string());
+    }
+    let grids = volume::info(path).map_err(|error| error.to_string())?;
+    let problem = grids.iter().find_map(|grid| grid.error.clone());
+    let names: Vec<String> = grids.into_iter().filter(|g| g.error.is_none()).map(|g| g.name).collect();
+    match (names.is_empty(), problem) {
+        (true, Some(problem)) => Err(problem),
+        (true, None) => {
+            Err(format!("{}: there is no grid in this file. Export one grid of density.", path.display()))
+        }
+        (false, _) => Ok(names),
+    }
 }
 
 fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {

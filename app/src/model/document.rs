@@ -36,8 +36,9 @@ impl Source {
         match self {
             Self::New => Ok(SceneDoc::default()),
             Self::Embedded(name) => {
-                let scene = embedded::find(name)
-                    .ok_or_else(|| format!("There is no embedded scene `{name}`: choose one in File › Embedded scenes."))?;
+                let scene = embedded::find(name).ok_or_else(|| {
+                    format!("There is no embedded scene `{name}`: choose one in File › Embedded scenes.")
+                })?;
                 scene_file::parse(scene.toml, name).map_err(|error| error.to_string())
             }
             Self::File(path) => scene_file::load(path).map_err(|error| error.to_string()),

@@ -3,6 +3,7 @@
 use super::{Column, Cx, Panel, extinction};
 use crate::widgets::{SpectrumField, hint, spectrum_editor};
 use egui::Ui;
+use majorant_core::spectrum::Quantity;
 
 /// See the [module](self).
 pub struct Albedo;
@@ -38,6 +39,7 @@ impl Panel for Albedo {
             max: Some(1.0),
             tip: "α(λ) = σs / σt: the share of extinguished light that is scattered, not absorbed",
             opened: &cx.opened.medium.albedo,
+            quantity: Quantity::Coefficient,
             majorant: None,
         };
         spectrum_editor(ui, &field, &mut cx.draft.medium.albedo);

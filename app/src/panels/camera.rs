@@ -41,7 +41,10 @@ impl Panel for Camera {
         if cx.draft.camera != cx.opened.camera && ui.small_button("↺  Camera as opened").clicked() {
             cx.draft.camera = cx.opened.camera.clone();
         }
-        hint(ui, "In the picture: drag orbits, Shift or right drag moves sideways, Ctrl + wheel comes closer.");
+        hint(
+            ui,
+            "In the picture: drag orbits, Shift or right drag moves sideways, Ctrl + wheel comes closer.",
+        );
     }
 }
 
@@ -49,7 +52,7 @@ fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     row(ui, "Image size", "Pixels; the render starts over when they change", |ui, _| {
         let film = &mut cx.draft.film;
         let width = (ui.available_width() - 86.0) * 0.5;
-        let mut side = |ui: &mut Ui, value: &mut u32, name: &str| {
+        let side = |ui: &mut Ui, value: &mut u32, name: &str| {
             let drag = DragValue::new(value)
                 .range(1..=16_384_u32)
                 .speed(2.0)

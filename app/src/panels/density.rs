@@ -30,9 +30,9 @@ impl Panel for Density {
     fn summary(&self, cx: &Cx<'_>) -> String {
         match cx.draft.medium.density.grid() {
             None => "uniform cube".into(),
-            Some(grid) => {
-                Path::new(&grid.file).file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned())
-            }
+            Some(grid) => Path::new(&grid.file)
+                .file_name()
+                .map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
         }
     }
 
@@ -50,10 +50,13 @@ impl Panel for Density {
         {
             #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
             let megabytes = info.memory_bytes as f64 / 1e6;
-            hint(ui, &format!(
-                "{x} × {y} × {z} voxels, {megabytes:.1} MB. Density up to {:.3}, mean {:.3}.",
-                info.max_density, info.mean_density
-            ));
+            hint(
+                ui,
+                &format!(
+                    "{x} × {y} × {z} voxels, {megabytes:.1} MB. Density up to {:.3}, mean {:.3}.",
+                    info.max_density, info.mean_density
+                ),
+            );
         }
         placement::placement_ui(ui, &mut cx.draft.medium.placement, &cx.opened.medium.placement);
     }

@@ -5,7 +5,7 @@ use crate::theme::Palette;
 use crate::widgets::{callout, hint, optional, row, segmented};
 use egui::{Color32, CornerRadius, Frame, Label, Margin, RichText, Role, Sense, Stroke, Ui, WidgetInfo};
 use majorant_core::estimator::{self, Entry, REGISTRY};
-use majorant_core::scene::{Absorption, Mode};
+use majorant_core::scene::{Absorption, EstimatorDoc, Mode};
 
 /// See the [module](self).
 pub struct Estimator;
@@ -57,15 +57,28 @@ impl Panel for Estimator {
             ];
             segmented(ui, "Absorption", &mut doc.absorption, &options);
         });
-        hint(ui, match doc.absorption {
-            Absorption::Weighted => "Each scattering multiplies the path by the albedo: P(real) = σt / µ.",
-            Absorption::Analogue => "A path ends with P(absorb) = σa / µ and otherwise keeps its weight.",
-        });
+        hint(
+            ui,
+            match doc.absorption {
+                Absorption::Weighted => {
+                    "Each scattering multiplies the path by the albedo: P(real) = σt / μ."
+                }
+                Absorption::Analogue => "A path ends with P(absorb) = σa / μ and otherwise keeps its weight.",
+            },
+        );
+        path_length_ui(ui, doc);
+    }
+}
+
+fn path_length_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    egui::CollapsingHeader::new(RichText::new("Path length").small()).show_unindented(ui, |ui| {
         let depth = "Most segments of a path: 1 is emission only, 2 is single scattering";
         optional(ui, "Max depth", &mut doc.max_depth, 8, "unlimited", depth, |v| v.range(1.0..=10_000.0));
         let roulette = "Ends faint paths at random after this many scatterings; unbiased";
-        optional(ui, "Roulette from", &mut doc.roulette_depth, 16, "never", roulette, |v| v.range(0.0..=10_000.0));
-    }
+        optional(ui, "Roulette from", &mut doc.roulette_depth, 16, "never", roulette, |v| {
+            v.range(0.0..=10_000.0)
+        });
+    });
 }
 
 /// One estimator as a card; returns whether it was chosen.
@@ -84,7 +97,7 @@ fn entry_ui(ui: &mut Ui, entry: &Entry, selected: bool) -> bool {
         .fill(fill)
         .stroke(Stroke::new(1.0, line))
         .corner_radius(CornerRadius::same(5))
-        .inner_margin(Margin { left: 10, right: 8, top: 5, bottom: 6 })
+        .inner_margin(Margin { left: 10, right: 8, top: 4, bottom: 5 })
         .show(ui, |ui| {
             ui.set_width(ui.available_width());
             ui.spacing_mut().item_spacing.y = 1.0;
@@ -94,11 +107,15 @@ fn entry_ui(ui: &mut Ui, entry: &Entry, selected: bool) -> bool {
                 text(ui, RichText::new(entry.name).color(palette.strong));
             });
             text(ui, RichText::new(entry.summary).small().color(palette.text));
-            text(ui, RichText::new(entry.reference).small().color(palette.weak));
+            if selected {
+                text(ui, RichText::new(entry.reference).small().color(palette.weak));
+            }
         });
     let response = ui.interact(frame.response.rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, selected, entry.name));
-    response.clicked() && !selected
+    let clicked = response.clicked();
+    response.on_hover_text(entry.reference);
+    clicked && !selected
 }
 
 fn radio_dot(ui: &mut Ui, selected: bool) {

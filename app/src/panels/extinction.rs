@@ -4,7 +4,7 @@ use super::{Column, Cx, Panel};
 use crate::widgets::{SpectrumField, hint, spectrum_editor};
 use egui::Ui;
 use majorant_core::scene::DensityDoc;
-use majorant_core::spectrum::SpectrumDoc;
+use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// See the [module](self).
 pub struct Extinction;
@@ -47,6 +47,7 @@ impl Panel for Extinction {
             max: None,
             tip: "σt(x, λ) = scale · density(x) · extinction(λ), per scene unit",
             opened: &cx.opened.medium.extinction,
+            quantity: Quantity::Coefficient,
             majorant: Some(&medium.majorant),
         };
         spectrum_editor(ui, &field, &mut medium.extinction);

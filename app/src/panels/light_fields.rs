@@ -4,7 +4,7 @@ use crate::lab::{Command, Purpose};
 use crate::widgets::{SpectrumField, Value, path_field, row, spectrum_editor, switch, vector};
 use egui::Ui;
 use majorant_core::scene::LightDoc;
-use majorant_core::spectrum::SpectrumDoc;
+use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 const RADIANCE: &str = "Le(λ) = scale · radiance(λ), per scene unit², steradian and nm";
 const IRRADIANCE: &str = "E(λ) = scale · irradiance(λ) on a surface that faces the sun";
@@ -22,7 +22,15 @@ pub fn light_ui(
     match light {
         LightDoc::Rectangle { center, target, up, size, radiance, scale, visible } => {
             vector(ui, "Centre", &format!("{name} centre"), center, 0.01, "", "Where it is");
-            vector(ui, "Faces", &format!("{name} target"), target, 0.01, "", "The point that its lit side faces");
+            vector(
+                ui,
+                "Faces",
+                &format!("{name} target"),
+                target,
+                0.01,
+                "",
+                "The point that its lit side faces",
+            );
             vector(ui, "Up", &format!("{name} up"), up, 0.01, "", "Direction that its height leans to");
             for (label, length) in ["Width", "Height"].iter().zip(size) {
                 length_ui(ui, label, &name, length, 0.6);
@@ -37,7 +45,15 @@ pub fn light_ui(
             visible_ui(ui, &name, visible);
         }
         LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, visible } => {
-            vector(ui, "Direction", &format!("{name} direction"), toward, 0.01, "", "From the scene to the sun");
+            vector(
+                ui,
+                "Direction",
+                &format!("{name} direction"),
+                toward,
+                0.01,
+                "",
+                "From the scene to the sun",
+            );
             Value::new("Diameter", angular_diameter_deg, 0.53)
                 .opened(if let LightDoc::Sun { angular_diameter_deg: d, .. } = before { d } else { 0.53 })
                 .unit("°")
@@ -126,6 +142,7 @@ fn emission_ui(
         max: None,
         tip,
         opened: opened_spectrum(before).unwrap_or(&now),
+        quantity: Quantity::Radiance,
         majorant: None,
     };
     let title = if quantity == "radiance" { "Radiance" } else { "Irradiance" };

@@ -3,7 +3,8 @@
 use super::{Column, Cx, Panel, light_fields};
 use crate::theme::Palette;
 use crate::widgets::{callout, hint};
-use egui::{Button, Color32, RichText, Ui};
+use egui::collapsing_header::CollapsingState;
+use egui::{Align, Button, Color32, Layout, RichText, Ui};
 use majorant_core::scene::LightDoc;
 
 /// See the [module](self).
@@ -77,29 +78,39 @@ pub(super) fn add_ui<T>(ui: &mut Ui, name: &str, templates: Vec<(&'static str, T
 }
 
 /// The heading of a list item with its buttons, and its body while it is open.
-pub(super) fn card_ui(ui: &mut Ui, salt: &str, index: usize, title: &str, body: impl FnOnce(&mut Ui)) -> Option<Change> {
-    let mut change = None;
+pub(super) fn card_ui(
+    ui: &mut Ui,
+    salt: &str,
+    index: usize,
+    title: &str,
+    body: impl FnOnce(&mut Ui),
+) -> Option<Change> {
     let number = index + 1;
-    let id = ui.make_persistent_id((salt, index));
-    let state = egui::collapsing_header::CollapsingState::load_with_default_open(ui.ctx(), id, true);
-    state
-        .show_header(ui, |ui| {
-            ui.label(RichText::new(format!("{number}  {title}")).strong());
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let mut button = |text: &str, verb: &str| {
-                    let name = format!("{verb} {salt} {number}");
-                    ui.add(Button::new(text).small()).on_hover_text(verb).accessible_name(name).clicked()
-                };
-                if button("×", "Remove") {
-                    change = Some(Change::Remove);
-                }
-                if button("⊕", "Duplicate") {
-                    change = Some(Change::Duplicate);
-                }
-            });
-        })
-        .body_unindented(body);
-    change
+    ui.push_id((salt, index), |ui| {
+        let mut change = None;
+        let id = ui.make_persistent_id("card");
+        let state = CollapsingState::load_with_default_open(ui.ctx(), id, true);
+        state
+            .show_header(ui, |ui| {
+                ui.label(RichText::new(format!("{number}  {title}")).strong());
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let mut button = |text: &str, verb: &str| {
+                        let name = format!("{verb} {salt} {number}");
+                        let response = ui.add(Button::new(text).small()).on_hover_text(verb);
+                        response.accessible_name(name).clicked()
+                    };
+                    if button("×", "Remove") {
+                        change = Some(Change::Remove);
+                    }
+                    if button("⊕", "Duplicate") {
+                        change = Some(Change::Duplicate);
+                    }
+                });
+            })
+            .body_unindented(body);
+        change
+    })
+    .inner
 }
 
 fn item_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) -> Option<Change> {

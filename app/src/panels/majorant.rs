@@ -39,16 +39,16 @@ impl Panel for Majorant {
             .range(0.1..=16.0)
             .logarithmic()
             .named("Majorant factor")
-            .tip("µ(λ) = factor · max over x of σt(x, λ). 1 is tight; above it null collisions are added")
+            .tip("μ(λ) = factor · max over x of σt(x, λ). 1 is tight; above it null collisions are added")
             .show(ui);
         if let Some(info) = cx.state.scene.as_ref() {
             tightness_ui(ui, info.tightness);
         }
-        let shared = "Every wavelength gets the largest one's majorant: µ = factor · max over x and λ of σt";
+        let shared = "Every wavelength gets the largest one's majorant: μ = factor · max over x and λ of σt";
         switch(ui, "Shared", &mut majorant.shared, "by all wavelengths", shared);
-        row(ui, "Where exceeded", "What happens where σt is larger than µ", |ui, _| {
+        row(ui, "Where exceeded", "What happens where σt is larger than μ", |ui, _| {
             let options = [
-                (WhenExceeded::Weighted, "Weighted", "σn = µ − σt turns negative; the weights stay right"),
+                (WhenExceeded::Weighted, "Weighted", "σn = μ − σt turns negative; the weights stay right"),
                 (WhenExceeded::Clamp, "Clamp", "σn is held at 0: the textbook mistake, biased"),
             ];
             segmented(ui, "Where exceeded", &mut majorant.when_exceeded, &options);
@@ -60,7 +60,10 @@ impl Panel for Majorant {
                 });
                 callout(ui, colour, text);
             }
-            None => hint(ui, "Null collisions fill σt up to µ: σn = µ − σt. They change the cost, not the picture."),
+            None => hint(
+                ui,
+                "Null collisions fill σt up to μ: σn = μ − σt. They change the cost, not the picture.",
+            ),
         }
     }
 }
@@ -74,19 +77,19 @@ fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'stat
         WhenExceeded::Weighted => (
             palette.warning,
             "weighted: unbiased, noisier",
-            "µ is below the largest σt. Where σt > µ, null collisions have negative weight: the mean is right, the variance grows.",
+            "μ is below the largest σt. Where σt > μ, null collisions have negative weight: the mean is right, the variance grows.",
         ),
         WhenExceeded::Clamp => (
             palette.error,
             "clamp: biased",
-            "µ is below the largest σt and null collisions are clamped: the picture converges to a wrong, brighter or darker one.",
+            "μ is below the largest σt and null collisions are clamped: the picture converges to a wrong, brighter or darker one.",
         ),
     })
 }
 
 /// Share of collisions in the box that are real, as a bar.
 fn tightness_ui(ui: &mut Ui, tightness: f32) {
-    let tip = "mean σt / µ over the box: the share of tentative collisions that are real. The rest is null";
+    let tip = "mean σt / μ over the box: the share of tentative collisions that are real. The rest is null";
     row(ui, "Tightness", tip, |ui, _| {
         let palette = Palette::get(ui);
         let width = ui.available_width() - 70.0;

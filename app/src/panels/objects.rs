@@ -5,7 +5,7 @@ use super::{Column, Cx, Panel};
 use crate::widgets::{SpectrumField, hint, spectrum_editor, vector};
 use egui::Ui;
 use majorant_core::scene::ObjectDoc;
-use majorant_core::spectrum::SpectrumDoc;
+use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// See the [module](self).
 pub struct Objects;
@@ -59,13 +59,29 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, index: usize) {
     match object {
         ObjectDoc::Ground { point, normal, albedo } => {
             vector(ui, "Point", &format!("{name} point"), point, 0.01, "", "A point on the plane");
-            vector(ui, "Normal", &format!("{name} normal"), normal, 0.01, "", "The direction that its top faces");
+            vector(
+                ui,
+                "Normal",
+                &format!("{name} normal"),
+                normal,
+                0.01,
+                "",
+                "The direction that its top faces",
+            );
             albedo_ui(ui, &name, albedo);
         }
         ObjectDoc::Box { center, size, rotate_deg, albedo } => {
             vector(ui, "Centre", &format!("{name} centre"), center, 0.01, "", "Where it is");
             vector(ui, "Size", &format!("{name} size"), size, 0.01, "", "Edge lengths");
-            vector(ui, "Rotate", &format!("{name} rotation"), rotate_deg, 0.5, "°", "Turns about x, then y, then z");
+            vector(
+                ui,
+                "Rotate",
+                &format!("{name} rotation"),
+                rotate_deg,
+                0.5,
+                "°",
+                "Turns about x, then y, then z",
+            );
             albedo_ui(ui, &name, albedo);
         }
     }
@@ -79,6 +95,7 @@ fn albedo_ui(ui: &mut Ui, name: &str, albedo: &mut SpectrumDoc) {
         max: Some(1.0),
         tip: "Reflected share of the light that arrives, 0 to 1",
         opened: &before,
+        quantity: Quantity::Coefficient,
         majorant: None,
     };
     spectrum_editor(ui, &field, albedo);

@@ -19,9 +19,33 @@ pub fn placement_ui(ui: &mut Ui, placement: &mut PlacementDoc, opened: &Placemen
             }
             return;
         }
-        vector(ui, "Translate", "Medium translation", &mut placement.translate, 0.01, "", "Moves the box, scene units");
-        vector(ui, "Rotate", "Medium rotation", &mut placement.rotate_deg, 0.5, "°", "Turns about x, then y, then z");
-        vector(ui, "Scale", "Medium scale", &mut placement.scale, 0.01, "", "Stretches the box along its axes");
+        vector(
+            ui,
+            "Translate",
+            "Medium translation",
+            &mut placement.translate,
+            0.01,
+            "",
+            "Moves the box, scene units",
+        );
+        vector(
+            ui,
+            "Rotate",
+            "Medium rotation",
+            &mut placement.rotate_deg,
+            0.5,
+            "°",
+            "Turns about x, then y, then z",
+        );
+        vector(
+            ui,
+            "Scale",
+            "Medium scale",
+            &mut placement.scale,
+            0.01,
+            "",
+            "Stretches the box along its axes",
+        );
         if placement != opened && ui.small_button("↺  As opened").clicked() {
             *placement = opened.clone();
         }

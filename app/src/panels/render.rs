@@ -80,24 +80,35 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let optional = |value: Option<f64>| value.map_or_else(|| "–".into(), count);
     let limit = cx.draft.render.spp.map_or_else(String::new, |limit| format!(" / {limit}"));
     let eta = stats.eta_seconds.map_or_else(|| "no limit".into(), duration);
-    let latency = cx.state.first_picture_seconds.map_or_else(|| "–".into(), |s| format!("{:.0} ms", 1e3 * s));
     let figures = [
         ("Samples / pixel", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
         ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel and second"),
-        ("Look-ups", format!("{} /s", optional(stats.lookups_per_second)), "Evaluations of the medium's coefficients per second"),
-        ("per path", optional(stats.lookups_per_path), "Look-ups per path: what the majorant and the estimator cost"),
+        (
+            "Look-ups / s",
+            optional(stats.lookups_per_second),
+            "Evaluations of the medium's coefficients per second",
+        ),
+        (
+            "Look-ups / path",
+            optional(stats.lookups_per_path),
+            "Look-ups per path: what the majorant and the estimator cost",
+        ),
         ("Time", duration(stats.seconds), "Time spent rendering, pauses left out"),
         ("Left", eta, "Estimated time to the nearest limit"),
-        ("First picture", latency, "From the last edit to its first picture"),
     ];
     ui.add_space(2.0);
-    Grid::new("figures").num_columns(2).spacing([12.0, 2.0]).min_col_width(100.0).show(ui, |ui| {
-        for (label, value, tip) in figures {
-            ui.label(RichText::new(label).color(Palette::get(ui).weak)).on_hover_text(tip);
-            ui.label(RichText::new(value).monospace().color(Palette::get(ui).strong)).on_hover_text(tip);
-            ui.end_row();
-        }
-    });
+    Grid::new("figures")
+        .num_columns(2)
+        .spacing([12.0, 1.0])
+        .min_row_height(19.0)
+        .min_col_width(crate::theme::LABEL_WIDTH - 4.0)
+        .show(ui, |ui| {
+            for (label, value, tip) in figures {
+                ui.label(RichText::new(label).color(Palette::get(ui).weak)).on_hover_text(tip);
+                ui.label(RichText::new(value).monospace().color(Palette::get(ui).strong)).on_hover_text(tip);
+                ui.end_row();
+            }
+        });
 }
 
 fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
@@ -118,12 +129,14 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let render = &mut cx.draft.render;
     ui.add_space(crate::theme::UNIT);
     let spp = "Rendering stops after this many samples per pixel; more can be added later";
-    optional(ui, "Stop at", &mut render.spp, 1024, "no sample limit", spp, |v| v.unit("spp").range(1.0..=1e9));
+    optional(ui, "Stop at", &mut render.spp, 1024, "no sample limit", spp, |v| {
+        v.unit("spp").range(1.0..=1e9)
+    });
     let seconds = "Rendering stops after this much time";
     optional(ui, "Stop after", &mut render.seconds, 60.0, "no time limit", seconds, |v| {
         v.unit("s").range(0.1..=1e6).logarithmic()
     });
-    let title = RichText::new("Threads and seed").small();
+    let title = RichText::new("Threads, seed, latency").small();
     egui::CollapsingHeader::new(title).id_salt("more").show_unindented(ui, |ui| {
         let threads = "Worker threads; the picture does not depend on them";
         optional(ui, "Threads", &mut render.threads, 1, "one per core", threads, |v| v.range(1.0..=1024.0));
@@ -133,8 +146,12 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             .tip("Selects the random numbers; nothing else is random")
             .show(ui);
         if let Some(snapshot) = cx.state.snapshot.as_ref() {
-            let text = format!("{} threads, {} of CPU time.", snapshot.threads, duration(snapshot.cpu_seconds));
+            let text =
+                format!("{} threads, {} of CPU time.", snapshot.threads, duration(snapshot.cpu_seconds));
             hint(ui, &text);
+        }
+        if let Some(seconds) = cx.state.first_picture_seconds {
+            hint(ui, &format!("First picture {:.0} ms after the last edit.", 1e3 * seconds));
         }
     });
 }

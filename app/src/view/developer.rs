@@ -138,8 +138,7 @@ fn run(bell: &Bell, poll: &dyn Fn() -> ViewState, repaint: &dyn Fn()) {
     while let Some(view) = bell.wait(rested) {
         let started = Instant::now();
         if let Some(snapshot) = poll().snapshot {
-            let known =
-                last.as_ref().is_some_and(|(s, v)| Arc::ptr_eq(s, &snapshot) && *v == view);
+            let known = last.as_ref().is_some_and(|(s, v)| Arc::ptr_eq(s, &snapshot) && *v == view);
             if !known {
                 let image = develop(&snapshot, &view);
                 bell.lock().done = Some(Picture { image, snapshot: Arc::clone(&snapshot) });

@@ -45,7 +45,10 @@ impl ImageView {
         self.placed.unwrap_or_else(|| {
             let room = (canvas.size() - Vec2::splat(2.0 * Self::MARGIN)).max(Vec2::splat(1.0));
             let zoom = (room / image.max(Vec2::splat(1.0))).min_elem();
-            Placed { centre: 0.5 * image, zoom: zoom.clamp(*Self::ZOOM_RANGE.start(), *Self::ZOOM_RANGE.end()) }
+            Placed {
+                centre: 0.5 * image,
+                zoom: zoom.clamp(*Self::ZOOM_RANGE.start(), *Self::ZOOM_RANGE.end()),
+            }
         })
     }
 

@@ -16,9 +16,6 @@ pub fn path_field(ui: &mut Ui, label: &str, name: &str, hint: &str, path: &mut S
                 field.on_hover_text(path.as_str());
             }
         });
-        ui.button(browse)
-            .on_hover_text("Choose a file")
-            .accessible_name(format!("Choose {name}"))
-            .clicked()
+        ui.button(browse).on_hover_text("Choose a file").accessible_name(format!("Choose {name}")).clicked()
     })
 }

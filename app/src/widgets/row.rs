@@ -11,8 +11,8 @@ pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id)
     ui.horizontal(|ui| {
         let height = ui.spacing().interact_size.y;
         let (rect, _) = ui.allocate_exact_size(vec2(LABEL_WIDTH, height), Sense::hover());
-        let mut column = ui
-            .new_child(UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
+        let mut column =
+            ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
         let response = column.add(Label::new(RichText::new(label)).truncate().selectable(false));
         let response = if tip.is_empty() { response } else { response.on_hover_text(tip) };
         add(ui, response.id)

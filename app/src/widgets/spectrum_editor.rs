@@ -9,11 +9,13 @@ use super::value::{Value, format_number};
 use super::{callout, hint};
 use crate::theme::Palette;
 use egui::{
-    Button, CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, Role, RichText, Sense, Shape, Stroke, Ui,
+    Button, CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui,
     Vec2, WidgetInfo, vec2,
 };
 use majorant_core::scene::MajorantDoc;
-use majorant_core::spectrum::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, presets};
+use majorant_core::spectrum::{
+    ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Quantity, Spectrum, SpectrumDoc, presets,
+};
 
 /// Height of the plot's frame.
 const FRAME: f32 = 104.0;
@@ -32,6 +34,8 @@ pub struct SpectrumField<'a> {
     pub tip: &'a str,
     /// The spectrum when the scene was opened or saved.
     pub opened: &'a SpectrumDoc,
+    /// What it is a spectrum of; decides how RGB becomes one.
+    pub quantity: Quantity,
     /// The majorant that is drawn over an extinction.
     pub majorant: Option<&'a MajorantDoc>,
 }
@@ -45,9 +49,7 @@ pub fn spectrum_editor(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectru
             SpectrumDoc::Rgb(rgb) => rgb_ui(ui, field, rgb),
             SpectrumDoc::Points { .. } | SpectrumDoc::Preset(_) => {}
         }
-        if !matches!(doc, SpectrumDoc::Rgb(_)) {
-            plot_ui(ui, field, doc);
-        }
+        plot_ui(ui, field, doc);
         if let SpectrumDoc::Preset(id) = doc {
             let summary = presets::find(id).map_or("", |p| p.summary);
             hint(ui, &format!("Preset {id}: {summary}. Drag a point to make it your own."));
@@ -127,15 +129,16 @@ fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
     let id = ui.make_persistent_id("plot");
     let size = vec2(ui.available_width(), Axes::height(FRAME));
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let axes = Axes::within(rect, plot_top(ui, id, field, doc));
+    let spectrum = Spectrum::new(doc, field.quantity);
+    let axes = Axes::within(rect, plot_top(ui, id, field, doc, &spectrum));
     let background = ui.interact(axes.frame, id, Sense::click());
     background.widget_info(|| WidgetInfo::labeled(Role::Image, true, format!("{} plot", field.name)));
     let painter = ui.painter_at(rect);
     axes.paint(ui, &painter);
     let palette = Palette::get(ui);
-    axes.paint_curve(&painter.with_clip_rect(axes.frame), doc, palette.strong);
+    axes.paint_curve(&painter.with_clip_rect(axes.frame), &spectrum, palette.strong);
     if let Some(majorant) = field.majorant {
-        paint_majorant(ui, &painter, &axes, doc, majorant);
+        paint_majorant(ui, &painter, &axes, &spectrum, majorant);
     }
 
     let at = |p: Pos2| {
@@ -143,7 +146,9 @@ fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         ControlPoint { lambda_nm: lambda.round(), value: tidy(value.max(0.0), axes.top) }
     };
     let mut edit: Option<(Vec<ControlPoint>, Outside)> = None;
-    if background.double_clicked() && let Some(p) = background.interact_pointer_pos() {
+    if background.double_clicked()
+        && let Some(p) = background.interact_pointer_pos()
+    {
         let (mut points, outside) = model::points_of(doc);
         if model::add(&mut points, at(p)).is_some() {
             edit = Some((points, outside));
@@ -153,11 +158,13 @@ fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         let mut edited = points.clone();
         let mut dragging = false;
         for index in 0..points.len() {
-            dragging |= grip_ui(ui, field, &axes, id.with(index), &mut edited, index, &at);
+            dragging |= grip_ui(ui, field, &axes, id.with(("grip", index)), &mut edited, index, &at);
         }
-        ui.data_mut(|d| match dragging {
-            true => d.insert_temp(id, axes.top),
-            false => d.remove::<f32>(id),
+        ui.data_mut(|d| {
+            d.remove::<f32>(id);
+            if dragging {
+                d.insert_temp(id, axes.top);
+            }
         });
         if edited != points {
             edit = Some((edited, outside));
@@ -170,7 +177,7 @@ fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
 }
 
 /// The top of the value axis; it rests while a point is dragged, or the point would run away.
-fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc) -> f32 {
+fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc, spectrum: &Spectrum) -> f32 {
     if let Some(held) = ui.data(|d| d.get_temp::<f32>(id)) {
         return held;
     }
@@ -180,7 +187,7 @@ fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc) -> f3
     let mut largest = 0.0_f32;
     let mut lambda = LAMBDA_MIN_NM;
     while lambda <= LAMBDA_MAX_NM {
-        largest = largest.max(doc.value_at(lambda).unwrap_or(0.0));
+        largest = largest.max(spectrum.at(lambda));
         lambda += 5.0;
     }
     for point in doc.control_points().map(|(points, _)| points).unwrap_or_default() {
@@ -190,19 +197,30 @@ fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc) -> f3
     model::plot_top(largest * factor)
 }
 
-/// Rounds to what a mouse can mean: a five hundredth of the axis.
+/// Rounds to what a mouse can mean: the power of ten below a three hundredth of the axis.
 fn tidy(value: f32, top: f32) -> f32 {
-    let step = 10_f32.powf((top / 500.0).log10().floor()) * 2.0;
-    // Dividing by the inverse keeps decimal numbers exact where multiplying by the step would not.
-    let inverse = (1.0 / step).round().max(1.0);
-    if step < 1.0 { (value * inverse).round() / inverse } else { (value / step).round() * step }
+    let exponent = (top / 300.0).log10().floor();
+    // Dividing by a whole number keeps decimals exact where multiplying by 0.1 would not.
+    let inverse = 10_f32.powf(-exponent);
+    if exponent < 0.0 {
+        (value * inverse).round() / inverse
+    } else {
+        let step = inverse.recip();
+        (value / step).round() * step
+    }
 }
 
 /// The majorant in the unit of the extinction: what free flights are sampled from where density is largest.
-fn paint_majorant(ui: &Ui, painter: &egui::Painter, axes: &Axes, doc: &SpectrumDoc, majorant: &MajorantDoc) {
+fn paint_majorant(
+    ui: &Ui,
+    painter: &egui::Painter,
+    axes: &Axes,
+    spectrum: &Spectrum,
+    majorant: &MajorantDoc,
+) {
     let palette = Palette::get(ui);
     let lambdas: Vec<f32> = (0..=94_u16).map(|i| LAMBDA_MIN_NM + 5.0 * f32::from(i)).collect();
-    let values: Vec<f32> = lambdas.iter().map(|l| doc.value_at(*l).unwrap_or(0.0)).collect();
+    let values: Vec<f32> = lambdas.iter().map(|l| spectrum.at(*l)).collect();
     let largest = values.iter().copied().fold(0.0, f32::max);
     let line: Vec<Pos2> = lambdas
         .iter()
@@ -214,7 +232,7 @@ fn paint_majorant(ui: &Ui, painter: &egui::Painter, axes: &Axes, doc: &SpectrumD
     clipped.extend(Shape::dashed_line(&line, Stroke::new(1.2, colour), 5.0, 4.0));
     let at = axes.frame.right_top() + vec2(-5.0, 2.0);
     let font = egui::FontId::proportional(11.5);
-    clipped.text(at, egui::Align2::RIGHT_TOP, "- - majorant µ", font, colour);
+    clipped.text(at, egui::Align2::RIGHT_TOP, "- - majorant μ", font, colour);
 }
 
 /// One point on the plot; returns whether it is being dragged.
@@ -237,14 +255,17 @@ fn grip_ui(
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
-    if response.dragged() && let Some(p) = response.interact_pointer_pos() {
+    if response.dragged()
+        && let Some(p) = response.interact_pointer_pos()
+    {
         let to = at(p);
         let to = ControlPoint { value: to.value.min(axes.top), ..to };
         model::shift(points, index, to, max);
     }
     let delete = response.has_focus()
         && ui.input_mut(|i| {
-            i.consume_key(egui::Modifiers::NONE, Key::Delete) || i.consume_key(egui::Modifiers::NONE, Key::Backspace)
+            i.consume_key(egui::Modifiers::NONE, Key::Delete)
+                || i.consume_key(egui::Modifiers::NONE, Key::Backspace)
         });
     if response.secondary_clicked() || delete {
         model::remove(points, index);
@@ -267,7 +288,9 @@ fn nudge(ui: &Ui, response: &Response, axes: &Axes, points: &mut [ControlPoint],
         let sign = |plus, minus| f32::from(i8::from(i.key_pressed(plus)) - i8::from(i.key_pressed(minus)));
         (step, vec2(sign(Key::ArrowRight, Key::ArrowLeft), sign(Key::ArrowUp, Key::ArrowDown)))
     });
-    if pressed != Vec2::ZERO && let Some(point) = points.get(index).copied() {
+    if pressed != Vec2::ZERO
+        && let Some(point) = points.get(index).copied()
+    {
         let to = ControlPoint {
             lambda_nm: point.lambda_nm + pressed.x * step,
             value: point.value + pressed.y * step * axes.top / 100.0,
@@ -305,7 +328,11 @@ fn points_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
                 number(ui, half, &mut point.lambda_nm, "nm", 0.5, &format!("{name} wavelength"));
                 number(ui, half, &mut point.value, field.unit, 0.01, &format!("{name} value"));
                 let button = ui.add_enabled(count > 1, Button::new("×").small());
-                if button.on_hover_text("Remove this point").accessible_name(format!("Remove {name}")).clicked() {
+                if button
+                    .on_hover_text("Remove this point")
+                    .accessible_name(format!("Remove {name}"))
+                    .clicked()
+                {
                     removed = Some(index);
                 }
             });
@@ -338,12 +365,12 @@ fn points_text_ui(ui: &mut Ui, field: &SpectrumField<'_>, points: &mut Vec<Contr
     let response =
         buffered_text(ui, id, &format!("{} points as text", field.name), "430:8, 540:40", &mut text, 1);
     if response.changed() {
+        ui.data_mut(|d| d.remove::<String>(problem));
         match SpectrumDoc::parse_points(&text) {
-            Ok(parsed) => {
-                *points = parsed;
-                ui.data_mut(|d| d.remove::<String>(problem));
+            Ok(parsed) => *points = parsed,
+            Err(message) => {
+                ui.data_mut(|d| d.insert_temp(problem, message));
             }
-            Err(message) => ui.data_mut(|d| d.insert_temp(problem, message)),
         }
     }
     if let Some(message) = ui.data(|d| d.get_temp::<String>(problem)) {
@@ -357,8 +384,8 @@ mod tests {
 
     #[test]
     fn dragged_values_are_tidy() {
-        assert_eq!(tidy(0.123_456, 1.0), 0.124);
-        assert_eq!(tidy(39.987, 50.0), 39.98);
-        assert_eq!(tidy(1234.0, 5000.0), 1240.0);
+        assert_eq!(tidy(0.123_456, 1.0), 0.123);
+        assert_eq!(tidy(39.987, 50.0), 40.0);
+        assert_eq!(tidy(1234.0, 5000.0), 1230.0);
     }
 }

@@ -1,6 +1,8 @@
 //! What can be done to a spectrum, without a widget: change its kind, add, move and remove points.
 
-use majorant_core::spectrum::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, presets};
+use majorant_core::spectrum::{
+    ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Quantity, Spectrum, SpectrumDoc, presets,
+};
 
 /// Two points never come closer than this, nm.
 const GAP_NM: f32 = 1.0;
@@ -37,7 +39,7 @@ fn sample(doc: &SpectrumDoc, lambda_nm: f32) -> f32 {
             l if l < 590.0 => *g,
             _ => *r,
         },
-        _ => doc.value_at(lambda_nm).unwrap_or(0.0),
+        _ => Spectrum::new(doc, Quantity::Coefficient).at(lambda_nm),
     }
 }
 
@@ -59,8 +61,8 @@ pub fn converted(doc: &SpectrumDoc, to: Kind) -> SpectrumDoc {
 #[must_use]
 pub fn points_of(doc: &SpectrumDoc) -> (Vec<ControlPoint>, Outside) {
     doc.control_points().unwrap_or_else(|| {
-        let points = [430.0, 540.0, 640.0]
-            .map(|lambda_nm| ControlPoint { lambda_nm, value: sample(doc, lambda_nm) });
+        let points =
+            [430.0, 540.0, 640.0].map(|lambda_nm| ControlPoint { lambda_nm, value: sample(doc, lambda_nm) });
         (points.to_vec(), Outside::Hold)
     })
 }
@@ -80,7 +82,8 @@ pub fn add(points: &mut Vec<ControlPoint>, at: ControlPoint) -> Option<usize> {
 /// Moves a point; it stays between its neighbours and in the range, and its value stays above zero
 /// and below `max`.
 pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, max: f32) {
-    let low = index.checked_sub(1).and_then(|i| points.get(i)).map_or(LAMBDA_MIN_NM, |p| p.lambda_nm + GAP_NM);
+    let low =
+        index.checked_sub(1).and_then(|i| points.get(i)).map_or(LAMBDA_MIN_NM, |p| p.lambda_nm + GAP_NM);
     let high = points.get(index + 1).map_or(LAMBDA_MAX_NM, |p| p.lambda_nm - GAP_NM);
     if let Some(point) = points.get_mut(index) {
         if low <= high {

@@ -2,10 +2,8 @@
 
 use super::value::format_number;
 use crate::theme::Palette;
-use egui::{
-    Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2,
-};
-use majorant_core::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumDoc, wavelength_colour};
+use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Rgba, Shape, Stroke, Ui, pos2, vec2};
+use majorant_core::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, wavelength_colour};
 
 /// Height of the strip of colours and of the numbers under it.
 const STRIP: f32 = 6.0;
@@ -64,16 +62,14 @@ impl Axes {
         for lambda in [400_u16, 500, 600, 700, 800].map(f32::from) {
             let x = self.point(lambda, 0.0).x;
             painter.vline(x, self.frame.y_range(), faint);
-            let at = pos2(x, self.frame.bottom() + STRIP + 2.0);
-            painter.text(at, Align2::CENTER_TOP, format!("{lambda}"), font.clone(), palette.weak);
+            let y = self.frame.bottom() + STRIP + 2.0;
+            // The last number carries the unit and ends with the frame.
+            let (at, align, text) = match lambda < 800.0 {
+                true => (pos2(x, y), Align2::CENTER_TOP, format!("{lambda}")),
+                false => (pos2(self.frame.right(), y), Align2::RIGHT_TOP, format!("{lambda} nm")),
+            };
+            painter.text(at, align, text, font.clone(), palette.weak);
         }
-        painter.text(
-            pos2(self.frame.right(), self.frame.bottom() + STRIP + 2.0),
-            Align2::RIGHT_TOP,
-            "nm",
-            font.clone(),
-            palette.weak,
-        );
         painter.hline(self.frame.x_range(), self.point(400.0, 0.5 * self.top).y, faint);
         let label = |value: f32, align, y| {
             let text = format_number(f64::from(value));
@@ -85,15 +81,14 @@ impl Axes {
     }
 
     /// The spectrum's curve, filled below with the colours of its wavelengths.
-    pub fn paint_curve(&self, painter: &Painter, doc: &SpectrumDoc, colour: Color32) {
+    pub fn paint_curve(&self, painter: &Painter, spectrum: &Spectrum, colour: Color32) {
         let count = 128_u16;
         let mut mesh = Mesh::default();
         let mut line = Vec::with_capacity(usize::from(count) + 1);
         for i in 0..=count {
             let t = f32::from(i) / f32::from(count);
             let lambda = egui::lerp(LAMBDA_MIN_NM..=LAMBDA_MAX_NM, t);
-            let Some(value) = doc.value_at(lambda) else { return };
-            let top = self.point(lambda, value.clamp(0.0, self.top * 1.1));
+            let top = self.point(lambda, spectrum.at(lambda).clamp(0.0, self.top * 1.1));
             line.push(top);
             let tint = colour_of(lambda).gamma_multiply(0.28);
             let base = u32::from(i) * 2;
@@ -111,13 +106,8 @@ impl Axes {
 
 /// The display colour of a wavelength.
 fn colour_of(lambda_nm: f32) -> Color32 {
-    let [r, g, b] = wavelength_colour(lambda_nm).map(byte);
-    Color32::from_rgb(r, g, b)
-}
-
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte")]
-fn byte(x: f32) -> u8 {
-    (x.clamp(0.0, 1.0) * 255.0).round() as u8
+    let [r, g, b] = wavelength_colour(lambda_nm);
+    Rgba::from_rgb(r, g, b).into()
 }
 
 /// A band with the colour of every wavelength.

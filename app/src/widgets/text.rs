@@ -3,7 +3,14 @@
 use egui::{Id, Response, TextEdit, Ui};
 
 /// Shows `text`; it changes on Enter or when the field is left, not while typing. Escape takes it back.
-pub fn buffered_text(ui: &mut Ui, id: Id, name: &str, hint: &str, text: &mut String, rows: usize) -> Response {
+pub fn buffered_text(
+    ui: &mut Ui,
+    id: Id,
+    name: &str,
+    hint: &str,
+    text: &mut String,
+    rows: usize,
+) -> Response {
     let mut buffer = ui.data(|d| d.get_temp::<String>(id)).unwrap_or_else(|| text.clone());
     let edit = match rows {
         1 => TextEdit::singleline(&mut buffer),

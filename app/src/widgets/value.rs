@@ -118,11 +118,7 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
     }
 
     fn field(self, ui: &mut Ui, label: Id) -> Response {
-        let speed = if self.logarithmic {
-            (self.value.to_f64().abs() * 0.012).max(1e-4)
-        } else {
-            self.speed
-        };
+        let speed = if self.logarithmic { (self.value.to_f64().abs() * 0.012).max(1e-4) } else { self.speed };
         let width = (ui.available_width() - SLOT - ui.spacing().item_spacing.x).max(48.0);
         let response = drag(ui, self.value, &self.range, speed, self.unit, width);
         paint_bar(ui, &response, self.value.to_f64(), &self.range, self.logarithmic);
@@ -175,7 +171,11 @@ fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f6
     let rect = response.rect;
     let width = rect.width() * fraction.clamp(0.0, 1.0) as f32;
     let bar = Rect::from_min_size(rect.left_bottom() - vec2(0.0, 2.0), vec2(width, 2.0));
-    ui.painter().with_clip_rect(ui.clip_rect().intersect(rect)).rect_filled(bar, 1.0, Palette::get(ui).accent.gamma_multiply(0.75));
+    ui.painter().with_clip_rect(ui.clip_rect().intersect(rect)).rect_filled(
+        bar,
+        1.0,
+        Palette::get(ui).accent.gamma_multiply(0.75),
+    );
 }
 
 fn reset_menu<N: Numeric + PartialEq>(response: &Response, value: &mut N, opened: N, default: N) {

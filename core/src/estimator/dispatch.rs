@@ -89,12 +89,7 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let jitter = trace.sampler.next_2d();
     let ray = scene.camera.ray(Vec2::new(x as f32, y as f32) + jitter);
     let components = C::sample(trace.sampler.next_1d());
-    let world = World {
-        scene,
-        medium: medium.local(&components),
-        components,
-        settings: settings.path,
-    };
+    let world = World { scene, medium: medium.local(&components), components, settings: settings.path };
     let radiance = E::estimate(&world, ray, &mut trace);
     PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }
 }

@@ -30,8 +30,7 @@ pub struct Entry {
 }
 
 /// Every estimator, in the order that pickers show.
-pub static REGISTRY: &[Entry] =
-    &[independent::ENTRY, spectral_mis::ENTRY, nee::ENTRY, uni_nee_mis::ENTRY];
+pub static REGISTRY: &[Entry] = &[independent::ENTRY, spectral_mis::ENTRY, nee::ENTRY, uni_nee_mis::ENTRY];
 
 /// The estimator with this id.
 #[must_use]

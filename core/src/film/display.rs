@@ -15,11 +15,7 @@ impl DisplayTransform {
     /// The transform that a document asks for.
     #[must_use]
     pub fn new(view: &ViewDoc) -> Self {
-        Self {
-            exposure: view.exposure_ev.exp2(),
-            tone: view.tone,
-            inverse_gamma: view.gamma.map(f32::recip),
-        }
+        Self { exposure: view.exposure_ev.exp2(), tone: view.tone, inverse_gamma: view.gamma.map(f32::recip) }
     }
 
     /// Display colour of one linear sRGB value, 8 bits per channel. What is not finite shows magenta.
@@ -70,10 +66,10 @@ mod tests {
         let view = ViewDoc { tone: ToneCurve::Linear, ..ViewDoc::default() };
         let t = DisplayTransform::new(&view);
         assert_eq!(t.encode([0.0, 1.0, 9.0]), [0, 255, 255]);
-        assert_eq!(t.encode([0.214_041, -1.0, 0.0]), [128, 0, 0]);
+        assert_eq!(t.encode([0.216, -1.0, 0.0]), [128, 0, 0]);
         assert_eq!(t.encode([f32::NAN, 0.0, 0.0]), [255, 0, 255]);
         let brighter = DisplayTransform::new(&ViewDoc { exposure_ev: 1.0, ..view });
-        assert_eq!(brighter.encode([0.107_020_5; 3]), [128; 3]);
+        assert_eq!(brighter.encode([0.108; 3]), [128; 3]);
     }
 
     #[test]

@@ -28,9 +28,7 @@ pub const METADATA: &str = "majorant";
 /// # Errors
 /// When the file cannot be written.
 pub fn write_exr(path: &Path, snapshot: &Snapshot, doc: &SceneDoc) -> std::result::Result<(), ExportError> {
-    let plane = |pixels: &[[f32; 3]], c: usize| {
-        FlatSamples::F32(pixels.iter().map(|p| p[c]).collect())
-    };
+    let plane = |pixels: &[[f32; 3]], c: usize| FlatSamples::F32(pixels.iter().map(|p| p[c]).collect());
     let mut channels = SmallVec::new();
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
         channels.push(AnyChannel::new(name, plane(&snapshot.mean, c)));

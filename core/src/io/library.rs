@@ -47,11 +47,8 @@ impl Library {
     }
 
     fn key(&self, file: &str, grid: Option<&String>) -> Key {
-        let path = if file.starts_with(embedded::PREFIX) {
-            PathBuf::from(file)
-        } else {
-            self.base.join(file)
-        };
+        let path =
+            if file.starts_with(embedded::PREFIX) { PathBuf::from(file) } else { self.base.join(file) };
         let modified = std::fs::metadata(&path).and_then(|m| m.modified()).ok();
         Key { path, grid: grid.cloned(), modified }
     }
@@ -103,11 +100,8 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
             voxels.repaired
         ));
     }
-    let samples: Vec<[f32; C]> = voxels
-        .values
-        .chunks_exact(C)
-        .map(|c| std::array::from_fn(|i| c[i]))
-        .collect();
+    let samples: Vec<[f32; C]> =
+        voxels.values.chunks_exact(C).map(|c| std::array::from_fn(|i| c[i])).collect();
     let min = DVec3::from(voxels.min_index.map(f64::from));
     #[allow(clippy::cast_precision_loss, reason = "sizes are far below 2^52")]
     let size = DVec3::from(voxels.size.map(|n| n as f64));
@@ -125,17 +119,13 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
             )
         }
     };
-    let grid = grid.ok_or_else(|| {
-        ResourceError(format!("{}: the grid has no voxels", path.display()))
-    })?;
+    let grid = grid.ok_or_else(|| ResourceError(format!("{}: the grid has no voxels", path.display())))?;
     if grid.max().iter().all(|m| *m <= 0.0) {
         notices.push(format!("{}: the grid is empty, its density is 0.", path.display()));
     }
     let placed = voxels.world_from_index * index_from_unit;
-    let object_from_unit = Affine3A::from_mat3_translation(
-        placed.matrix3.as_mat3(),
-        placed.translation.as_vec3(),
-    );
+    let object_from_unit =
+        Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
     Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, notices })
 }
 

@@ -69,8 +69,7 @@ pub fn read(path: &Path) -> Result<Picture, PictureError> {
 fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
     use exr::*;
     let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
-    std::fs::metadata(path)
-        .map_err(|source| PictureError::Io { file: file.to_owned(), source })?;
+    std::fs::metadata(path).map_err(|source| PictureError::Io { file: file.to_owned(), source })?;
     // The header is read first: a damaged one can ask for any amount of memory.
     let meta = MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
     for header in &meta.headers {
@@ -85,11 +84,7 @@ fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
     }
     let image = read_first_rgba_layer_from_file(
         path,
-        |size, _| Picture {
-            width: size.width(),
-            height: size.height(),
-            pixels: vec![[0.0; 3]; size.area()],
-        },
+        |size, _| Picture { width: size.width(), height: size.height(), pixels: vec![[0.0; 3]; size.area()] },
         |picture: &mut Picture, at, (r, g, b, _a): (f32, f32, f32, f32)| {
             let index = at.y() * picture.width + at.x();
             picture.pixels[index] = [r, g, b];
@@ -119,4 +114,40 @@ pub fn read_panorama(path: &Path) -> Result<(Panorama, usize), PictureError> {
         }
     })?;
     Ok((panorama, repaired))
+}
+
+/// What an EXR file says about itself.
+#[derive(Clone, Debug)]
+pub struct ExrInfo {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Names of the channels of the first part.
+    pub channels: Vec<String>,
+    /// The JSON that [`super::export::write_exr`] leaves, if this program wrote the file.
+    pub metadata: Option<String>,
+}
+
+/// Reads the header of an EXR file.
+///
+/// # Errors
+/// When the file is missing or not an EXR file.
+pub fn exr_info(path: &Path) -> Result<ExrInfo, PictureError> {
+    let file = path.display().to_string();
+    std::fs::metadata(path).map_err(|source| PictureError::Io { file: file.clone(), source })?;
+    let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
+    let meta = exr::MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
+    let header = meta.headers.first().ok_or_else(|| invalid("it has no part".into()))?;
+    let name = exr::Text::from(super::export::METADATA);
+    let metadata = match header.own_attributes.other.get(&name) {
+        Some(exr::AttributeValue::Text(text)) => Some(text.to_string()),
+        _ => None,
+    };
+    Ok(ExrInfo {
+        width: header.layer_size.width(),
+        height: header.layer_size.height(),
+        channels: header.channels.list.iter().map(|c| c.name.to_string()).collect(),
+        metadata,
+    })
 }

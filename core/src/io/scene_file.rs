@@ -46,8 +46,8 @@ pub enum SceneFileError {
 /// When the file cannot be read, or is not a valid scene.
 pub fn load(path: &Path) -> Result<SceneDoc, SceneFileError> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path)
-        .map_err(|source| SceneFileError::Io { file: file.clone(), source })?;
+    let text =
+        std::fs::read_to_string(path).map_err(|source| SceneFileError::Io { file: file.clone(), source })?;
     parse(&text, &file)
 }
 
@@ -73,9 +73,7 @@ pub fn parse(text: &str, name: &str) -> Result<SceneDoc, SceneFileError> {
     }
     match validate(&doc).into_iter().next() {
         None => Ok(doc),
-        Some(problem) => {
-            Err(invalid(offset_of(text, &problem.path).unwrap_or(0), problem.to_string()))
-        }
+        Some(problem) => Err(invalid(offset_of(text, &problem.path).unwrap_or(0), problem.to_string())),
     }
 }
 
@@ -102,10 +100,7 @@ pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
 pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc, SceneFileError> {
     let mut doc = doc.clone();
     for assignment in assignments {
-        let failed = |message: String| SceneFileError::Override {
-            assignment: assignment.clone(),
-            message,
-        };
+        let failed = |message: String| SceneFileError::Override { assignment: assignment.clone(), message };
         let (path, value) = assignment
             .split_once('=')
             .ok_or_else(|| failed("write KEY=VALUE, e.g. medium.majorant.factor=2".into()))?;
@@ -199,10 +194,13 @@ fn offset_of(text: &str, path: &str) -> Option<usize> {
                 if let Some(tables) = item.as_array_of_tables() {
                     offset = tables.get(index).and_then(toml_edit::Table::span).map(|s| s.start).or(offset);
                     // Keys of an element are found through the element's own table.
-                    return tables.get(index).and_then(|table| {
-                        let rest = path.split_once(&format!("[{index}]."));
-                        rest.and_then(|(_, key)| table.get(key)).and_then(Item::span).map(|s| s.start)
-                    }).or(offset);
+                    return tables
+                        .get(index)
+                        .and_then(|table| {
+                            let rest = path.split_once(&format!("[{index}]."));
+                            rest.and_then(|(_, key)| table.get(key)).and_then(Item::span).map(|s| s.start)
+                        })
+                        .or(offset);
                 }
                 None
             }

@@ -14,11 +14,7 @@ pub struct Environment {
 
 impl Emitter for Environment {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
-        Some(LightSample {
-            direction: uniform_direction(u),
-            distance: f32::INFINITY,
-            density: INV_4PI,
-        })
+        Some(LightSample { direction: uniform_direction(u), distance: f32::INFINITY, density: INV_4PI })
     }
 
     fn density(&self, _from: Vec3, _direction: Vec3, _distance: f32) -> f32 {

@@ -67,8 +67,12 @@ impl Panorama {
         probability * self.width as f32 / (TAU * band(y, self.height))
     }
 
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss,
-        reason = "the index is clamped to the picture")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "the index is clamped to the picture"
+    )]
     fn texel_at(&self, d: Vec3) -> (usize, usize) {
         let u = 0.5 + d.x.atan2(-d.z) / TAU;
         let v = d.y.clamp(-1.0, 1.0).acos() / PI;

@@ -39,8 +39,7 @@ impl Sun {
 
 impl Emitter for Sun {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
-        let direction =
-            Frame::about(self.toward).polar(u.x * self.one_minus_cos_max, TAU * u.y);
+        let direction = Frame::about(self.toward).polar(u.x * self.one_minus_cos_max, TAU * u.y);
         Some(LightSample {
             direction,
             distance: f32::INFINITY,

@@ -47,7 +47,11 @@ fn samples_reach_the_light_with_the_density_that_they_claim() {
             let density = light.density(from, s.direction, s.distance);
             let at_edge = (s.density / density - 1.0).abs() > 1e-3;
             // A direction that is drawn on the border of two texels may round into the neighbour.
-            assert!(!at_edge || matches!(light.kind, LightKind::EnvironmentMap(_)), "{} {density}", s.density);
+            assert!(
+                !at_edge || matches!(light.kind, LightKind::EnvironmentMap(_)),
+                "{} {density}",
+                s.density
+            );
             match &shape {
                 Some(shape) => {
                     let ray = Ray { origin: from, direction: s.direction };
@@ -74,14 +78,12 @@ fn densities_integrate_to_one_over_the_sphere() {
         for _ in 0..n {
             let direction = uniform_direction(sampler.next_2d());
             let distance = match &shape {
-                Some(shape) => shape
-                    .intersect(&Ray { origin: from, direction }, f32::INFINITY)
-                    .map(|hit| hit.t),
+                Some(shape) => {
+                    shape.intersect(&Ray { origin: from, direction }, f32::INFINITY).map(|hit| hit.t)
+                }
                 None => light.is_behind(direction).then_some(f32::INFINITY),
             };
-            let x = distance.map_or(0.0, |d| {
-                f64::from(light.density(from, direction, d) * 2.0 * TAU)
-            });
+            let x = distance.map_or(0.0, |d| f64::from(light.density(from, direction, d) * 2.0 * TAU));
             sum += x;
             sum2 += x * x;
         }

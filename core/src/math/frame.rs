@@ -37,8 +37,7 @@ impl Frame {
     pub fn polar(&self, one_minus_cos: f32, phi: f32) -> Vec3 {
         let sin_theta = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
         let (sin_phi, cos_phi) = phi.sin_cos();
-        self.to_world(Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - one_minus_cos))
-            .normalize()
+        self.to_world(Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - one_minus_cos)).normalize()
     }
 }
 
@@ -50,13 +49,9 @@ mod tests {
     fn axes_are_orthonormal_even_at_the_poles() {
         for z in [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::new(0.3, -0.8, -0.52).normalize()] {
             let f = Frame::about(z);
-            for (a, b, dot) in [
-                (f.x, f.y, 0.0),
-                (f.y, f.z, 0.0),
-                (f.z, f.x, 0.0),
-                (f.x, f.x, 1.0),
-                (f.y, f.y, 1.0),
-            ] {
+            for (a, b, dot) in
+                [(f.x, f.y, 0.0), (f.y, f.z, 0.0), (f.z, f.x, 0.0), (f.x, f.x, 1.0), (f.y, f.y, 1.0)]
+            {
                 assert!((a.dot(b) - dot).abs() < 1e-6);
             }
             assert!((f.x.cross(f.y) - z).length() < 1e-6);

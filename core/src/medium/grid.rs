@@ -55,19 +55,20 @@ impl<const C: usize> Grid<C> {
     /// The value at a point of the unit cube.
     #[must_use]
     #[inline]
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss,
-        reason = "the index is clamped to the grid first")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        clippy::cast_precision_loss,
+        reason = "the index is clamped to the grid first"
+    )]
     pub fn at(&self, unit: Vec3) -> [f32; C] {
         let index = (unit * self.scale + self.offset).clamp(Vec3::ZERO, self.last);
         let [nx, ny, nz] = self.size;
         let (x, y, z) = (index.x as usize, index.y as usize, index.z as usize);
         let f = index - Vec3::new(x as f32, y as f32, z as f32);
         // The upper neighbour of the last sample is itself, with weight 0.
-        let (dx, dy, dz) = (
-            usize::from(x + 1 < nx),
-            if y + 1 < ny { nx } else { 0 },
-            if z + 1 < nz { nx * ny } else { 0 },
-        );
+        let (dx, dy, dz) =
+            (usize::from(x + 1 < nx), if y + 1 < ny { nx } else { 0 }, if z + 1 < nz { nx * ny } else { 0 });
         let base = x + nx * (y + ny * z);
         std::array::from_fn(|c| {
             let v = |i: usize| self.values[i][c];

@@ -28,11 +28,7 @@ impl MajorantPolicy {
     /// Freezes the edited choice.
     #[must_use]
     pub fn new(doc: &MajorantDoc) -> Self {
-        Self {
-            factor: doc.factor,
-            shared: doc.shared,
-            clamp_null: doc.when_exceeded == WhenExceeded::Clamp,
-        }
+        Self { factor: doc.factor, shared: doc.shared, clamp_null: doc.when_exceeded == WhenExceeded::Clamp }
     }
 
     /// The global majorant of a medium whose extinction is bounded by `bound(λ)`.

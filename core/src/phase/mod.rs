@@ -146,8 +146,8 @@ mod tests {
             let mut cumulative = 0.0;
             for i in 0..steps {
                 let m = 2.0 * (f64::from(i) + 0.5) / f64::from(steps);
-                cumulative += f64::from(phase.value((1.0 - m) as f32)) * std::f64::consts::TAU * 2.0
-                    / f64::from(steps);
+                cumulative +=
+                    f64::from(phase.value((1.0 - m) as f32)) * std::f64::consts::TAU * 2.0 / f64::from(steps);
                 if cumulative >= (edges.len() + 1) as f64 / bins as f64 && edges.len() + 1 < bins {
                     edges.push(m);
                 }
@@ -163,8 +163,7 @@ mod tests {
                 counts[edges.partition_point(|e| *e < m)] += 1;
             }
             let expected = f64::from(n) / bins as f64;
-            let chi2: f64 =
-                counts.iter().map(|c| (f64::from(*c) - expected).powi(2) / expected).sum();
+            let chi2: f64 = counts.iter().map(|c| (f64::from(*c) - expected).powi(2) / expected).sum();
             // 19 degrees of freedom, seven phase functions, fixed seed: the 0.99999 quantile is 59.
             assert!(chi2 < 59.0, "{name}: χ² = {chi2}");
         }

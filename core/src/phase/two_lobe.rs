@@ -13,8 +13,7 @@ pub(super) struct TwoLobe {
 
 impl Lobe for TwoLobe {
     fn value(&self, one_minus_cos: f32) -> f32 {
-        self.share * self.first.value(one_minus_cos)
-            + (1.0 - self.share) * self.second.value(one_minus_cos)
+        self.share * self.first.value(one_minus_cos) + (1.0 - self.share) * self.second.value(one_minus_cos)
     }
 
     /// Picks a lobe, then uses what is left of the number in it.

@@ -1,15 +1,14 @@
 //! Freezes a document into a scene.
 
 use super::{
-    Camera, DensityDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc,
-    SceneError, SceneInfo, placement, validate,
+    Camera, DensityDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc, SceneError,
+    SceneInfo, placement, validate,
 };
 use crate::light::{
     Environment, EnvironmentMap, Light, LightKind, Panorama, RectangleLight, SphereLight, Sun,
 };
 use crate::medium::{
-    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantPolicy,
-    RgbGrids,
+    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantPolicy, RgbGrids,
 };
 use crate::phase::Phase;
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
@@ -192,15 +191,13 @@ fn build_light(doc: &LightDoc, resources: &mut dyn Resources) -> Result<LightKin
                 radiance: radiance(r, *scale),
             })
         }
-        LightDoc::Sphere { center, radius, radiance: r, scale, .. } => {
-            LightKind::Sphere(SphereLight {
-                shape: Sphere { center: (*center).into(), radius: *radius },
-                radiance: radiance(r, *scale),
-            })
+        LightDoc::Sphere { center, radius, radiance: r, scale, .. } => LightKind::Sphere(SphereLight {
+            shape: Sphere { center: (*center).into(), radius: *radius },
+            radiance: radiance(r, *scale),
+        }),
+        LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => {
+            LightKind::Sun(Sun::new((*toward).into(), *angular_diameter_deg, radiance(irradiance, *scale)))
         }
-        LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => LightKind::Sun(
-            Sun::new((*toward).into(), *angular_diameter_deg, radiance(irradiance, *scale)),
-        ),
         LightDoc::Environment { radiance: r, scale, .. } => {
             LightKind::Environment(Environment { radiance: radiance(r, *scale) })
         }
@@ -216,13 +213,9 @@ fn build_light(doc: &LightDoc, resources: &mut dyn Resources) -> Result<LightKin
 
 fn build_object(doc: &ObjectDoc) -> Surface {
     let (shape, albedo) = match doc {
-        ObjectDoc::Ground { point, normal, albedo } => (
-            Shape::Plane(Plane {
-                point: (*point).into(),
-                normal: Vec3::from(*normal).normalize(),
-            }),
-            albedo,
-        ),
+        ObjectDoc::Ground { point, normal, albedo } => {
+            (Shape::Plane(Plane { point: (*point).into(), normal: Vec3::from(*normal).normalize() }), albedo)
+        }
         ObjectDoc::Box { center, size, rotate_deg, albedo } => (
             Shape::Box(OrientedBox {
                 center: (*center).into(),

@@ -58,12 +58,8 @@ mod tests {
     #[test]
     fn rays_agree_with_an_independent_renderer() {
         // Oracle scene S1, `check_rays`.
-        let doc = CameraDoc {
-            origin: [1.6, 1.1, -2.4],
-            target: [0.0; 3],
-            up: [0.0, 1.0, 0.0],
-            fov_deg: 32.0,
-        };
+        let doc =
+            CameraDoc { origin: [1.6, 1.1, -2.4], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 32.0 };
         let camera = Camera::new(&doc, 128, 128);
         for (pixel, direction) in [
             ([0.0, 0.0], [-0.311_724_66, -0.081_921_36, 0.946_634_37]),

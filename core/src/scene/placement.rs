@@ -27,17 +27,12 @@ pub(super) fn world_from_unit(doc: &PlacementDoc, object_from_unit: Affine3A) ->
     if let Some(longest) = doc.fit {
         let (lo, hi) = bounds(&placed);
         let scale = longest / (hi - lo).max_element();
-        placed = Affine3A::from_scale(Vec3::splat(scale))
-            * Affine3A::from_translation(-0.5 * (lo + hi))
-            * placed;
+        placed =
+            Affine3A::from_scale(Vec3::splat(scale)) * Affine3A::from_translation(-0.5 * (lo + hi)) * placed;
     }
     let world_from_object = match doc.matrix {
         Some([x, y, z]) => Affine3A::from_mat3_translation(
-            Mat3::from_cols_array_2d(&[
-                [x[0], y[0], z[0]],
-                [x[1], y[1], z[1]],
-                [x[2], y[2], z[2]],
-            ]),
+            Mat3::from_cols_array_2d(&[[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]),
             Vec3::new(x[3], y[3], z[3]),
         ),
         None => Affine3A::from_scale_rotation_translation(

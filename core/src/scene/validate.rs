@@ -62,11 +62,7 @@ impl Checker {
 
     fn direction(&mut self, path: &str, v: [f32; 3]) {
         let length = Vec3::from(v).length();
-        self.check(
-            length.is_finite() && length > 0.0,
-            path,
-            format!("is {v:?}, which has no direction"),
-        );
+        self.check(length.is_finite() && length > 0.0, path, format!("is {v:?}, which has no direction"));
     }
 }
 
@@ -166,11 +162,7 @@ fn medium(c: &mut Checker, doc: &MediumDoc) {
     }
     let p = &doc.placement;
     c.finite("medium.placement", &[p.scale, p.rotate_deg, p.translate].concat());
-    c.check(
-        p.fit.is_none_or(|fit| fit > 0.0 && fit.is_finite()),
-        "medium.placement.fit",
-        "must be positive",
-    );
+    c.check(p.fit.is_none_or(|fit| fit > 0.0 && fit.is_finite()), "medium.placement.fit", "must be positive");
     if let Some(matrix) = p.matrix {
         c.finite("medium.placement.matrix", &matrix.concat());
     }
@@ -190,11 +182,7 @@ fn check_light(c: &mut Checker, path: &str, doc: &LightDoc) {
         }
         LightDoc::Sphere { center, radius, radiance, scale, .. } => {
             c.finite(path, center);
-            c.check(
-                *radius > 0.0 && radius.is_finite(),
-                format!("{path}.radius"),
-                "must be positive",
-            );
+            c.check(*radius > 0.0 && radius.is_finite(), format!("{path}.radius"), "must be positive");
             (Some(radiance), *scale)
         }
         LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => {
@@ -202,9 +190,7 @@ fn check_light(c: &mut Checker, path: &str, doc: &LightDoc) {
             c.check(
                 (0.05..=170.0).contains(angular_diameter_deg),
                 format!("{path}.angular_diameter_deg"),
-                format!(
-                    "is {angular_diameter_deg}; from 0.05 to 170 degrees a scattered path can meet it"
-                ),
+                format!("is {angular_diameter_deg}; from 0.05 to 170 degrees a scattered path can meet it"),
             );
             (Some(irradiance), *scale)
         }

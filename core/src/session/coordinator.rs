@@ -127,8 +127,8 @@ impl Keeper {
     }
 
     fn pool(&mut self, threads: Option<usize>) -> Result<Arc<ThreadPool>, String> {
-        let threads = threads
-            .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
+        let threads =
+            threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
         if let Some(pool) = self.pools.get(&threads) {
             return Ok(Arc::clone(pool));
         }
@@ -196,7 +196,8 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
 
 fn fail(mailbox: &Mailbox, views: &mut BTreeMap<ViewId, Active>, id: ViewId, message: &str) {
     if let Some(view) = views.remove(&id) {
-        let text = format!("The renderer stopped on an internal error: {message}. Edit the scene to start again.");
+        let text =
+            format!("The renderer stopped on an internal error: {message}. Edit the scene to start again.");
         mailbox.publish_status(id, view.generation, Status::Failed(text));
     }
 }
@@ -215,7 +216,9 @@ fn obey(command: Command, mailbox: &Mailbox, keeper: &mut Keeper, views: &mut BT
         Command::Remove { view } => {
             views.remove(&view);
         }
-        Command::Limits { view: id, spp, seconds } => change(id, mailbox, views, |v| v.limits = (spp, seconds)),
+        Command::Limits { view: id, spp, seconds } => {
+            change(id, mailbox, views, |v| v.limits = (spp, seconds))
+        }
         Command::Pause { view: id, paused } => change(id, mailbox, views, |v| {
             v.paused = paused;
             v.steps = 0;
@@ -268,9 +271,9 @@ fn show_preview(id: ViewId, view: &Active, mailbox: &Mailbox) {
     let mut stride = COARSE_STRIDE;
     loop {
         let began = Instant::now();
-        let image = view.pool.install(|| {
-            preview::render(&view.scene, view.kernel, &view.settings, stride, &view.wanted())
-        });
+        let image = view
+            .pool
+            .install(|| preview::render(&view.scene, view.kernel, &view.settings, stride, &view.wanted()));
         let Some(image) = image else { return };
         let unknown = vec![[f32::INFINITY; 3]; image.len()];
         #[allow(clippy::cast_possible_truncation, reason = "a small constant")]

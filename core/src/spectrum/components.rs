@@ -50,10 +50,7 @@ impl<const N: usize> Components<N> for Wavelengths<N> {
     }
 
     fn upsample_radiance(&self, rgb: Vec3) -> Sampled<N> {
-        Sampled(
-            self.lambda_nm
-                .map(|lambda| observer::basis(lambda).dot(rgb) * observer::daylight(lambda)),
-        )
+        Sampled(self.lambda_nm.map(|lambda| observer::basis(lambda).dot(rgb) * observer::daylight(lambda)))
     }
 
     fn to_film(&self, radiance: Sampled<N>) -> Vec3 {
@@ -110,9 +107,7 @@ mod tests {
     /// The film must see a constant radiance in the mean over the hero, for any number of components.
     fn mean_film<const N: usize, C: Components<N>>() -> Vec3 {
         let n = 4700u16;
-        (0..n)
-            .map(|i| C::sample((f32::from(i) + 0.5) / f32::from(n)).to_film(Sampled::ONE))
-            .sum::<Vec3>()
+        (0..n).map(|i| C::sample((f32::from(i) + 0.5) / f32::from(n)).to_film(Sampled::ONE)).sum::<Vec3>()
             / f32::from(n)
     }
 

@@ -64,9 +64,7 @@ impl SpectrumDoc {
                 format!("`{part}` is not a control point: write `wavelength in nm : value`, e.g. `540:40`")
             })?;
             let number = |s: &str| {
-                s.trim()
-                    .parse::<f32>()
-                    .map_err(|_| format!("`{}` in `{part}` is not a number", s.trim()))
+                s.trim().parse::<f32>().map_err(|_| format!("`{}` in `{part}` is not a number", s.trim()))
             };
             let point = ControlPoint { lambda_nm: number(lambda)?, value: number(value)? };
             if let Some(last) = points.last()
@@ -88,8 +86,7 @@ impl SpectrumDoc {
     /// The points as they are written in a scene file.
     #[must_use]
     pub fn format_points(points: &[ControlPoint]) -> String {
-        let parts: Vec<String> =
-            points.iter().map(|p| format!("{}:{}", p.lambda_nm, p.value)).collect();
+        let parts: Vec<String> = points.iter().map(|p| format!("{}:{}", p.lambda_nm, p.value)).collect();
         parts.join(", ")
     }
 

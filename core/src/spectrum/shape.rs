@@ -42,10 +42,7 @@ impl Spectrum {
             }
             SpectrumDoc::Preset(id) => presets::find(id)
                 .and_then(|p| SpectrumDoc::parse_points(p.points).ok())
-                .map_or(Shape::Constant(0.0), |points| Shape::Points {
-                    points,
-                    outside: Outside::Hold,
-                }),
+                .map_or(Shape::Constant(0.0), |points| Shape::Points { points, outside: Outside::Hold }),
             SpectrumDoc::Rgb(rgb) => match quantity {
                 Quantity::Coefficient => Shape::Rgb((*rgb).into()),
                 Quantity::Radiance => Shape::RgbRadiance((*rgb).into()),
@@ -120,9 +117,7 @@ impl Shape {
             Self::Constant(value) => *value,
             Self::Points { points, outside } => interpolate(points, *outside, lambda_nm),
             Self::Rgb(rgb) => observer::basis(lambda_nm).dot(*rgb),
-            Self::RgbRadiance(rgb) => {
-                observer::basis(lambda_nm).dot(*rgb) * observer::daylight(lambda_nm)
-            }
+            Self::RgbRadiance(rgb) => observer::basis(lambda_nm).dot(*rgb) * observer::daylight(lambda_nm),
         }
     }
 }
@@ -181,12 +176,15 @@ mod tests {
     #[test]
     fn points_are_linear_between_and_hold_or_vanish_beyond() {
         let s = Spectrum::new(&report(), Quantity::Coefficient);
-        for (lambda, expected) in [(360.0, 8.0), (430.0, 8.0), (485.0, 24.0), (540.0, 40.0), (556.0, 24.0), (700.0, 8.0)] {
+        for (lambda, expected) in
+            [(360.0, 8.0), (430.0, 8.0), (485.0, 24.0), (540.0, 40.0), (556.0, 24.0), (700.0, 8.0)]
+        {
             assert!((s.at(lambda) - expected).abs() < 1e-4, "{lambda}");
         }
         assert_eq!(s.max_over_wavelengths(), 40.0);
         let (points, _) = report().control_points().expect("a preset of points");
-        let zero = Spectrum::new(&SpectrumDoc::Points { points, outside: Outside::Zero }, Quantity::Coefficient);
+        let zero =
+            Spectrum::new(&SpectrumDoc::Points { points, outside: Outside::Zero }, Quantity::Coefficient);
         assert_eq!([zero.at(429.0), zero.at(430.0), zero.at(572.0), zero.at(573.0)], [0.0, 8.0, 8.0, 0.0]);
     }
 
@@ -194,6 +192,9 @@ mod tests {
     fn rgb_components_of_a_constant_are_the_constant_and_stay_within_range() {
         assert_eq!(Spectrum::constant(0.7).rgb(), Vec3::splat(0.7));
         let rgb = Spectrum::new(&report(), Quantity::Coefficient).rgb();
-        assert!(rgb.min_element() >= 8.0 && rgb.max_element() <= 40.0 && rgb.y > rgb.x && rgb.y > rgb.z, "{rgb}");
+        assert!(
+            rgb.min_element() >= 8.0 && rgb.max_element() <= 40.0 && rgb.y > rgb.x && rgb.y > rgb.z,
+            "{rgb}"
+        );
     }
 }

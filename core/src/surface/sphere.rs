@@ -29,7 +29,6 @@ impl Sphere {
         let half_chord = half_chord2.sqrt();
         let inside = to_center.length_squared() < self.radius * self.radius;
         let t = if inside { along + half_chord } else { along - half_chord };
-        (t > 0.0 && t < t_max)
-            .then(|| SurfaceHit { t, normal: (ray.at(t) - self.center).normalize() })
+        (t > 0.0 && t < t_max).then(|| SurfaceHit { t, normal: (ray.at(t) - self.center).normalize() })
     }
 }

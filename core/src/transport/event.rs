@@ -87,12 +87,7 @@ mod tests {
     use crate::medium::MajorantSegment;
 
     fn collision(extinction: f32, albedo: f32, majorant: f32, absorption: Absorption) -> Collision<1> {
-        let segment = MajorantSegment {
-            t0: 0.0,
-            t1: 1.0,
-            majorant: Sampled([majorant]),
-            clamp_null: false,
-        };
+        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: Sampled([majorant]), clamp_null: false };
         let coefficients = Coefficients::new(Sampled([extinction]), Sampled([albedo]), &segment);
         Collision::new(Vec3::ZERO, coefficients, absorption)
     }

@@ -27,9 +27,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             origin: scene.medium_from_world.transform_point3(ray.origin),
             direction: scene.medium_from_world.transform_vector3(ray.direction),
         };
-        let inside = UnitBox::interval(&ray_in_medium)
-            .map(|(t0, t1)| (t0, t1.min(t_max)))
-            .filter(|(t0, t1)| t0 < t1);
+        let inside =
+            UnitBox::interval(&ray_in_medium).map(|(t0, t1)| (t0, t1.min(t_max))).filter(|(t0, t1)| t0 < t1);
         let mut segments = inside.map(|(t0, t1)| medium.segments(&ray_in_medium, t0, t1));
         let segment = segments.as_mut().and_then(Iterator::next);
         let t = segment.as_ref().map_or(0.0, |s| s.t0);
@@ -53,8 +52,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 weights.pass(segment.majorant, t - self.t);
                 self.t = t;
                 trace.lookups += 1;
-                let coefficients =
-                    self.medium.coefficients(self.ray_in_medium.at(t), &segment);
+                let coefficients = self.medium.coefficients(self.ray_in_medium.at(t), &segment);
                 return Some(Collision::new(self.ray_in_world.at(t), coefficients, self.absorption));
             }
             weights.pass(segment.majorant, segment.t1 - self.t);

@@ -33,8 +33,7 @@ pub struct PathWeights<const N: usize> {
 
 impl<const N: usize> PathWeights<N> {
     /// A path that has just left the camera.
-    pub const CAMERA: Self =
-        Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE };
+    pub const CAMERA: Self = Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE };
 
     /// A stretch of `distance` without collision under a majorant μ̄: e^(−μ̄ᵢ t) for all.
     #[inline]

@@ -103,10 +103,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
         // Off the surface by more than the rounding of the point's own coordinates.
         let lift = 2e-5 * (1.0 + point.abs().max_element() + end.t());
-        Some((
-            Vertex::Surface { point: point + normal * lift, normal },
-            self.components.evaluate(albedo),
-        ))
+        Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
     }
 
     /// Ends faint paths at random: continues with a probability that grows with the throughput.

@@ -21,10 +21,9 @@ impl<'a> Cursor<'a> {
     pub(super) fn window(bytes: &'a [u8], start: u64, end: u64) -> Result<Self, Fault> {
         let window = usize::try_from(start).ok().zip(usize::try_from(end).ok());
         match window {
-            Some((start, end)) if start <= end && end <= bytes.len() => Ok(Self {
-                bytes: &bytes[..end],
-                position: start,
-            }),
+            Some((start, end)) if start <= end && end <= bytes.len() => {
+                Ok(Self { bytes: &bytes[..end], position: start })
+            }
             _ => Err(Fault::invalid(
                 None,
                 format!("bytes {start} to {end} of a file of {} bytes", bytes.len()),
@@ -47,10 +46,7 @@ impl<'a> Cursor<'a> {
         if len > self.remaining() {
             return Err(Fault::invalid(
                 self.position(),
-                format!(
-                    "{len} bytes expected, but only {} are left",
-                    self.remaining()
-                ),
+                format!("{len} bytes expected, but only {} are left", self.remaining()),
             ));
         }
         let taken = &self.bytes[self.position..self.position + len];
@@ -123,6 +119,7 @@ impl<'a> Cursor<'a> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 

@@ -151,12 +151,7 @@ impl Fault {
     }
 
     pub(super) fn unsupported(what: impl Into<String>, cure: impl Into<Cow<'static, str>>) -> Self {
-        Self {
-            kind: FaultKind::Unsupported,
-            byte: None,
-            what: what.into(),
-            cure: cure.into(),
-        }
+        Self { kind: FaultKind::Unsupported, byte: None, what: what.into(), cure: cure.into() }
     }
 
     /// `what` needs `needed` of something of which `limit` are allowed.
@@ -189,30 +184,12 @@ impl Fault {
     /// Names the file, and the grid where there is one.
     pub(super) fn in_file(self, file: &str, grid: Option<&str>) -> VolumeError {
         let file = file.to_owned();
-        let place = Place {
-            grid: grid.map(str::to_owned),
-            byte: self.byte,
-        };
+        let place = Place { grid: grid.map(str::to_owned), byte: self.byte };
         let (what, cure) = (self.what, self.cure);
         match self.kind {
-            FaultKind::Invalid => VolumeError::Invalid {
-                file,
-                place,
-                what,
-                cure,
-            },
-            FaultKind::Unsupported => VolumeError::Unsupported {
-                file,
-                place,
-                what,
-                cure,
-            },
-            FaultKind::TooLarge => VolumeError::TooLarge {
-                file,
-                place,
-                what,
-                cure,
-            },
+            FaultKind::Invalid => VolumeError::Invalid { file, place, what, cure },
+            FaultKind::Unsupported => VolumeError::Unsupported { file, place, what, cure },
+            FaultKind::TooLarge => VolumeError::TooLarge { file, place, what, cure },
         }
     }
 }

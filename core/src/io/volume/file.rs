@@ -13,10 +13,7 @@ use super::limits::Limits;
 /// It cannot be read, or is longer than [`Limits::max_file_bytes`].
 pub(super) fn read(path: &Path, limits: &Limits) -> Result<Vec<u8>, VolumeError> {
     let label = path.display().to_string();
-    let io_error = |source| VolumeError::Io {
-        file: label.clone(),
-        source,
-    };
+    let io_error = |source| VolumeError::Io { file: label.clone(), source };
     let file = File::open(path).map_err(io_error)?;
     let length = file.metadata().map_err(io_error)?.len();
     let too_large = |length: u64| {
@@ -33,9 +30,7 @@ pub(super) fn read(path: &Path, limits: &Limits) -> Result<Vec<u8>, VolumeError>
     }
     let mut bytes = Vec::new();
     // A pipe or a growing file may hold more than its metadata says.
-    file.take(limits.max_file_bytes.saturating_add(1))
-        .read_to_end(&mut bytes)
-        .map_err(io_error)?;
+    file.take(limits.max_file_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(io_error)?;
     if bytes.len() as u64 > limits.max_file_bytes {
         return Err(too_large(bytes.len() as u64));
     }

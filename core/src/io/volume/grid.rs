@@ -62,8 +62,7 @@ impl VoxelGrid {
     pub fn index_bbox(&self) -> [i32; 6] {
         let [x, y, z] = self.min_index;
         // Readers build no grid whose last index would leave the range of i32.
-        let last =
-            |min: i32, n: usize| min.saturating_add(i32::try_from(n).unwrap_or(i32::MAX) - 1);
+        let last = |min: i32, n: usize| min.saturating_add(i32::try_from(n).unwrap_or(i32::MAX) - 1);
         let [nx, ny, nz] = self.size;
         [x, y, z, last(x, nx), last(y, ny), last(z, nz)]
     }
@@ -92,10 +91,7 @@ impl VoxelGrid {
             SampleConvention::VertexCentred => min + size - 1.0,
             SampleConvention::CellCentred => min + size,
         };
-        (
-            self.world_from_index.transform_point3(min),
-            self.world_from_index.transform_point3(max),
-        )
+        (self.world_from_index.transform_point3(min), self.world_from_index.transform_point3(max))
     }
 
     /// Sets voxels with a NaN or infinite channel to 0, and counts them and the negative ones.
@@ -130,10 +126,7 @@ pub fn validate_density(grid: &VoxelGrid, path: &Path) -> Result<(), VolumeError
     let index = [0, 1, 2].map(|axis| grid.min_index[axis].saturating_add(offset[axis] as i32));
     Err(VolumeError::NegativeDensity {
         file: path.display().to_string(),
-        place: Place {
-            grid: Some(grid.name.clone()).filter(|name| !name.is_empty()),
-            byte: None,
-        },
+        place: Place { grid: Some(grid.name.clone()).filter(|name| !name.is_empty()), byte: None },
         index,
         value: grid.values[at],
         count: grid.negative,
@@ -142,6 +135,7 @@ pub fn validate_density(grid: &VoxelGrid, path: &Path) -> Result<(), VolumeError
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 
@@ -175,20 +169,10 @@ mod tests {
     fn negative_density_is_named_with_its_index() {
         let mut grid = grid(vec![0.0, 1.0, 0.5, -2.0]);
         grid.repair_and_count();
-        let message = validate_density(&grid, Path::new("a.vdb"))
-            .unwrap_err()
-            .to_string();
-        assert!(
-            message.contains("[11, 20, 31]") && message.contains("\"density\""),
-            "{message}"
-        );
+        let message = validate_density(&grid, Path::new("a.vdb")).unwrap_err().to_string();
+        assert!(message.contains("[11, 20, 31]") && message.contains("\"density\""), "{message}");
         grid.level_set = true;
-        let message = validate_density(&grid, Path::new("a.vdb"))
-            .unwrap_err()
-            .to_string();
-        assert!(
-            message.contains("level set") && message.contains("fog volume"),
-            "{message}"
-        );
+        let message = validate_density(&grid, Path::new("a.vdb")).unwrap_err().to_string();
+        assert!(message.contains("level set") && message.contains("fog volume"), "{message}");
     }
 }

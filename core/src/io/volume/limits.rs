@@ -17,11 +17,7 @@ pub struct Limits {
 impl Default for Limits {
     /// 1 GiB each for the file, the unpacked tree and the dense grid.
     fn default() -> Self {
-        Self {
-            max_file_bytes: 1 << 30,
-            max_tree_bytes: 1 << 30,
-            max_dense_values: 1 << 28,
-        }
+        Self { max_file_bytes: 1 << 30, max_tree_bytes: 1 << 30, max_dense_values: 1 << 28 }
     }
 }
 
@@ -31,17 +27,15 @@ impl Limits {
         // Sides are at most 2^32, so three of them and a channel count fit in 128 bits.
         let needed = size.iter().map(|&n| u128::from(n)).product::<u128>() * channels as u128;
         let allowed = usize::try_from(needed).ok();
-        allowed
-            .filter(|_| needed <= u128::from(self.max_dense_values))
-            .ok_or_else(|| {
-                let [x, y, z] = size;
-                Fault::too_large(
-                    &format!("a dense grid of {x} × {y} × {z} voxels, {channels} value(s) each"),
-                    format_args!("{needed} values"),
-                    format_args!("{} values", self.max_dense_values),
-                    "Crop or resample the volume to a coarser voxel size",
-                )
-            })
+        allowed.filter(|_| needed <= u128::from(self.max_dense_values)).ok_or_else(|| {
+            let [x, y, z] = size;
+            Fault::too_large(
+                &format!("a dense grid of {x} × {y} × {z} voxels, {channels} value(s) each"),
+                format_args!("{needed} values"),
+                format_args!("{} values", self.max_dense_values),
+                "Crop or resample the volume to a coarser voxel size",
+            )
+        })
     }
 }
 

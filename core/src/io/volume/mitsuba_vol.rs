@@ -31,21 +31,14 @@ const VERSION: u8 = 3;
 /// # Errors
 /// The header is malformed, encoding or number of channels is another, the number of bytes does
 /// not fit, or the volume exceeds the limits.
-pub fn read_mitsuba_vol_bytes(
-    bytes: &[u8],
-    label: &str,
-    limits: &Limits,
-) -> Result<VoxelGrid, VolumeError> {
+pub fn read_mitsuba_vol_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
     read(bytes, limits).map_err(|fault| fault.in_file(label, None))
 }
 
 fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
     let mut cursor = Cursor::new(bytes);
     if cursor.take(MAGIC.len()).ok() != Some(MAGIC) {
-        return Err(Fault::invalid(
-            0,
-            "this is not a Mitsuba volume: it does not start with VOL",
-        ));
+        return Err(Fault::invalid(0, "this is not a Mitsuba volume: it does not start with VOL"));
     }
     let version = cursor.u8()?;
     if version != VERSION {
@@ -59,10 +52,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
     let extents = cursor.i32x3()?;
     let size = extents.map(|n| usize::try_from(n).unwrap_or(0));
     if size.contains(&0) {
-        return Err(Fault::invalid(
-            at,
-            format!("a volume of {extents:?} voxels"),
-        ));
+        return Err(Fault::invalid(at, format!("a volume of {extents:?} voxels")));
     }
     let channels = match cursor.i32()? {
         1 => 1,
@@ -83,11 +73,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
             let halves = chunks(data(&mut cursor, len, 2)?).map(f16::from_le_bytes);
             values.extend(halves.map(f16::to_f32));
         }
-        3 => values.extend(
-            data(&mut cursor, len, 1)?
-                .iter()
-                .map(|&byte| f32::from(byte) / 255.0),
-        ),
+        3 => values.extend(data(&mut cursor, len, 1)?.iter().map(|&byte| f32::from(byte) / 255.0)),
         other => {
             return Err(Fault::unsupported(
                 format!("encoding {other}"),
@@ -122,15 +108,9 @@ fn bounding_box(cursor: &mut Cursor, size: [usize; 3]) -> Result<DAffine3, Fault
     };
     let (min, max) = (corner()?, corner()?);
     if !(min.is_finite() && max.is_finite() && max.cmpgt(min).all()) {
-        return Err(
-            Fault::invalid(at, format!("the bounding box from {min} to {max} is empty")).with_cure(
-                "Write the file again with a bounding box whose maximum exceeds its minimum",
-            ),
-        );
+        return Err(Fault::invalid(at, format!("the bounding box from {min} to {max} is empty"))
+            .with_cure("Write the file again with a bounding box whose maximum exceeds its minimum"));
     }
     let voxel = (max - min) / DVec3::from(size.map(|n| n as f64));
-    Ok(DAffine3::from_mat3_translation(
-        DMat3::from_diagonal(voxel),
-        min,
-    ))
+    Ok(DAffine3::from_mat3_translation(DMat3::from_diagonal(voxel), min))
 }

@@ -5,7 +5,7 @@
 //! place and the cure ([`VolumeError`]). The one repair, NaN and infinite voxels set to 0, is
 //! counted in [`VoxelGrid::repaired`].
 //!
-//! To add a format: a file with a `read_bytes`, and one line each in [`Format`]'s two matches.
+//! To add a format: a file with a `read_bytes`, and one line each in the two matches on `Format`.
 
 mod cursor;
 mod error;
@@ -38,9 +38,7 @@ enum Format {
 impl Format {
     /// By the extension of the file name, or else by the first bytes.
     fn of(label: &str, bytes: &[u8]) -> Option<Self> {
-        let extension = Path::new(label)
-            .extension()
-            .and_then(|extension| extension.to_str());
+        let extension = Path::new(label).extension().and_then(|extension| extension.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
             Some("vdb") => Some(Self::OpenVdb),
             Some("npy") => Some(Self::Npy),
@@ -60,17 +58,8 @@ impl Format {
 ///
 /// # Errors
 /// The file is missing, of an unknown format, damaged, too large, or has no such grid.
-pub fn read_volume(
-    path: &Path,
-    grid: Option<&str>,
-    limits: &Limits,
-) -> Result<VoxelGrid, VolumeError> {
-    read_volume_bytes(
-        &file::read(path, limits)?,
-        &path.display().to_string(),
-        grid,
-        limits,
-    )
+pub fn read_volume(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+    read_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
 }
 
 /// [`read_volume`] for a file in memory; `label` stands for its path, extension included.

@@ -43,21 +43,13 @@ struct Header {
 /// # Errors
 /// The header is malformed, the shape, order or element type is another, the number of bytes does
 /// not fit, or the array exceeds the limits.
-pub fn read_npy_bytes(
-    bytes: &[u8],
-    label: &str,
-    limits: &Limits,
-) -> Result<VoxelGrid, VolumeError> {
+pub fn read_npy_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
     read(bytes, limits).map_err(|fault| fault.in_file(label, None))
 }
 
 fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
     let mut cursor = Cursor::new(bytes);
-    let Header {
-        element,
-        size,
-        channels,
-    } = header(&mut cursor)?;
+    let Header { element, size, channels } = header(&mut cursor)?;
     let len = limits.dense_values(size.map(|n| n as u64), channels)?;
     let data = data(&mut cursor, len, element.bytes())?;
     let mut values = allocate(len)?;
@@ -86,11 +78,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
 }
 
 /// The rest of the file, which must be exactly `len` elements.
-pub(super) fn data<'a>(
-    cursor: &mut Cursor<'a>,
-    len: usize,
-    element_bytes: usize,
-) -> Result<&'a [u8], Fault> {
+pub(super) fn data<'a>(cursor: &mut Cursor<'a>, len: usize, element_bytes: usize) -> Result<&'a [u8], Fault> {
     let (expected, actual) = (len.saturating_mul(element_bytes), cursor.remaining());
     if expected != actual {
         return Err(Fault::invalid(
@@ -138,10 +126,7 @@ impl Element {
 
 fn header(cursor: &mut Cursor) -> Result<Header, Fault> {
     if cursor.take(MAGIC.len()).ok() != Some(MAGIC) {
-        return Err(Fault::invalid(
-            0,
-            "this is not a NumPy file: its magic number is missing",
-        ));
+        return Err(Fault::invalid(0, "this is not a NumPy file: its magic number is missing"));
     }
     let (major, _minor) = (cursor.u8()?, cursor.u8()?);
     let len = match major {
@@ -168,12 +153,8 @@ fn header(cursor: &mut Cursor) -> Result<Header, Fault> {
             "Convert in Python: numpy.save(path, numpy.ascontiguousarray(array))",
         ));
     }
-    let descr = value_of(&text, "descr")
-        .and_then(quoted)
-        .ok_or_else(|| malformed("descr"))?;
-    let shape = value_of(&text, "shape")
-        .and_then(tuple)
-        .ok_or_else(|| malformed("shape"))?;
+    let descr = value_of(&text, "descr").and_then(quoted).ok_or_else(|| malformed("descr"))?;
+    let shape = value_of(&text, "shape").and_then(tuple).ok_or_else(|| malformed("shape"))?;
     let (size, channels) = match shape[..] {
         [z, y, x] => ([x, y, z], 1),
         [z, y, x, 3] => ([x, y, z], 3),
@@ -185,16 +166,9 @@ fn header(cursor: &mut Cursor) -> Result<Header, Fault> {
         }
     };
     if size.contains(&0) {
-        return Err(Fault::invalid(
-            at,
-            format!("an array of shape {shape:?} has no voxels"),
-        ));
+        return Err(Fault::invalid(at, format!("an array of shape {shape:?} has no voxels")));
     }
-    Ok(Header {
-        element: Element::of(descr)?,
-        size,
-        channels,
-    })
+    Ok(Header { element: Element::of(descr)?, size, channels })
 }
 
 /// What follows `'key':` in the header dictionary.
@@ -205,19 +179,12 @@ fn value_of<'a>(text: &'a str, key: &str) -> Option<&'a str> {
 
 /// The text between quotation marks.
 fn quoted(text: &str) -> Option<&str> {
-    text.strip_prefix('\'')?
-        .split_once('\'')
-        .map(|(inside, _)| inside)
+    text.strip_prefix('\'')?.split_once('\'').map(|(inside, _)| inside)
 }
 
 /// The numbers of a tuple such as `(3, 4, 5)`.
 fn tuple(text: &str) -> Option<Vec<usize>> {
     let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
-    let items = inside
-        .split(',')
-        .map(str::trim)
-        .filter(|item| !item.is_empty());
-    items
-        .map(|item| item.parse().ok().filter(|&n| n <= u32::MAX as usize))
-        .collect()
+    let items = inside.split(',').map(str::trim).filter(|item| !item.is_empty());
+    items.map(|item| item.parse().ok().filter(|&n| n <= u32::MAX as usize)).collect()
 }

@@ -18,12 +18,7 @@ pub struct CameraDoc {
 
 impl Default for CameraDoc {
     fn default() -> Self {
-        Self {
-            origin: [0.0, 0.0, 3.0],
-            target: [0.0; 3],
-            up: [0.0, 1.0, 0.0],
-            fov_deg: 35.0,
-        }
+        Self { origin: [0.0, 0.0, 3.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 35.0 }
     }
 }
 

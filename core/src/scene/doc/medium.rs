@@ -98,13 +98,7 @@ pub struct PlacementDoc {
 
 impl Default for PlacementDoc {
     fn default() -> Self {
-        Self {
-            fit: None,
-            scale: [1.0; 3],
-            rotate_deg: [0.0; 3],
-            translate: [0.0; 3],
-            matrix: None,
-        }
+        Self { fit: None, scale: [1.0; 3], rotate_deg: [0.0; 3], translate: [0.0; 3], matrix: None }
     }
 }
 

@@ -50,12 +50,7 @@ impl<'a> Archive<'a> {
                 "Copy or export the file again, with fewer grids",
             ));
         }
-        let mut archive = Self {
-            bytes,
-            header,
-            grids: Vec::new(),
-            unreachable: 0,
-        };
+        let mut archive = Self { bytes, header, grids: Vec::new(), unreachable: 0 };
         for index in 0..count {
             let grid = GridDescriptor::read(&mut cursor, &archive.header)?;
             let end = grid.extent.end;
@@ -82,10 +77,7 @@ impl<'a> Archive<'a> {
 
     /// Display names, in file order.
     pub(super) fn names(&self) -> Vec<String> {
-        self.grids
-            .iter()
-            .map(|grid| grid.display_name.clone())
-            .collect()
+        self.grids.iter().map(|grid| grid.display_name.clone()).collect()
     }
 
     /// Reads what stands in front of a grid's tree.
@@ -103,31 +95,18 @@ impl<'a> Archive<'a> {
         let metadata = Metadata::read(&mut cursor)?;
         let map_type = cursor.text()?;
         let map = map::read(&map_type, &mut cursor).map(|map| (map, cursor));
-        Ok(GridHead {
-            compression,
-            metadata,
-            map_type,
-            map,
-        })
+        Ok(GridHead { compression, metadata, map_type, map })
     }
 
     /// The grid whose tree a grid uses: itself, or the parent of an instance.
-    pub(super) fn tree_owner<'g>(
-        &'g self,
-        grid: &'g GridDescriptor,
-    ) -> Result<&'g GridDescriptor, Fault> {
+    pub(super) fn tree_owner<'g>(&'g self, grid: &'g GridDescriptor) -> Result<&'g GridDescriptor, Fault> {
         let parent = &grid.instance_parent;
         if parent.is_empty() {
             return Ok(grid);
         }
         let owner = self.grids.iter().find(|other| other.unique_name == *parent);
-        owner
-            .filter(|owner| owner.instance_parent.is_empty())
-            .ok_or_else(|| {
-                Fault::invalid(
-                    None,
-                    format!("it shares the tree of \"{parent}\", which is not in the file"),
-                )
-            })
+        owner.filter(|owner| owner.instance_parent.is_empty()).ok_or_else(|| {
+            Fault::invalid(None, format!("it shares the tree of \"{parent}\", which is not in the file"))
+        })
     }
 }

@@ -50,11 +50,7 @@ impl BlockFormat {
             if self.compression.active_mask && tag != ALL_VALUES {
                 count = mask::count_ones(active);
             }
-            out.push(if tag == ALL_VALUES {
-                ALL_VALUES
-            } else {
-                NO_MASK_OR_INACTIVE_VALUES
-            });
+            out.push(if tag == ALL_VALUES { ALL_VALUES } else { NO_MASK_OR_INACTIVE_VALUES });
         }
         if count == 0 && self.stored.is_half() {
             // OpenVDB writes nothing for no half floats, where it writes a size of 0 for no
@@ -78,10 +74,7 @@ impl BlockFormat {
         let at = cursor.position();
         let tag = cursor.u8()?;
         if tag > ALL_VALUES {
-            return Err(Fault::invalid(
-                at,
-                format!("unknown tag {tag} of a value block"),
-            ));
+            return Err(Fault::invalid(at, format!("unknown tag {tag} of a value block")));
         }
         let inactive_values = match tag {
             ONE_INACTIVE_VALUE | MASK_AND_ONE_INACTIVE_VALUE => 1,

@@ -36,26 +36,16 @@ pub(super) fn check(chunk: &[u8], unpacked: usize) -> Result<(), Fault> {
     let cbytes = cursor.u32()? as usize;
 
     if version != FORMAT_VERSION {
-        return Err(wrong(format!(
-            "format version {version} instead of {FORMAT_VERSION}"
-        )));
+        return Err(wrong(format!("format version {version} instead of {FORMAT_VERSION}")));
     }
     if nbytes != unpacked {
-        return Err(wrong(format!(
-            "it unpacks to {nbytes} bytes instead of {unpacked}"
-        )));
+        return Err(wrong(format!("it unpacks to {nbytes} bytes instead of {unpacked}")));
     }
     if cbytes != chunk.len() {
-        return Err(wrong(format!(
-            "its header says {cbytes} bytes, but it has {}",
-            chunk.len()
-        )));
+        return Err(wrong(format!("its header says {cbytes} bytes, but it has {}", chunk.len())));
     }
-    let odd_blocks = || {
-        wrong(format!(
-            "blocks of {block_bytes} bytes holding values of {type_bytes}, in {nbytes} bytes"
-        ))
-    };
+    let odd_blocks =
+        || wrong(format!("blocks of {block_bytes} bytes holding values of {type_bytes}, in {nbytes} bytes"));
     if type_bytes == 0 || block_bytes == 0 || block_bytes > nbytes {
         return Err(odd_blocks());
     }
@@ -67,24 +57,16 @@ pub(super) fn check(chunk: &[u8], unpacked: usize) -> Result<(), Fault> {
         };
     }
     let other_flags = flags & 0x1f & !(FLAG_SHUFFLE | FLAG_UNSPLIT);
-    if flags >> CODEC_SHIFT != CODEC_LZ4 || codec_version != LZ4_FORMAT_VERSION || other_flags != 0
-    {
+    if flags >> CODEC_SHIFT != CODEC_LZ4 || codec_version != LZ4_FORMAT_VERSION || other_flags != 0 {
         return Err(Fault::unsupported(
             format!("Blosc chunks other than LZ4 with byte shuffle (flags {flags:#04x})"),
             "Save the file again with OpenVDB's own Blosc settings, or with zip",
         ));
     }
-    if block_bytes % type_bytes != 0 {
+    if !block_bytes.is_multiple_of(type_bytes) {
         return Err(odd_blocks());
     }
-    check_blocks(
-        chunk,
-        cursor,
-        nbytes,
-        block_bytes,
-        flags & FLAG_UNSPLIT == 0,
-        type_bytes,
-    )
+    check_blocks(chunk, cursor, nbytes, block_bytes, flags & FLAG_UNSPLIT == 0, type_bytes)
 }
 
 /// Follows the table of block starts, and in each block the chain of split sizes.
@@ -101,10 +83,7 @@ fn check_blocks(
     for block in 0..blocks {
         let start = u64::from(table.u32()?);
         if start < data_start {
-            return Err(Fault::invalid(
-                None,
-                format!("Blosc block {block} starts at byte {start}"),
-            ));
+            return Err(Fault::invalid(None, format!("Blosc block {block} starts at byte {start}")));
         }
         let is_whole = (block + 1) * block_bytes <= nbytes;
         let splits = if may_split
@@ -131,12 +110,7 @@ mod tests {
 
     /// A chunk of `nbytes` with one block and one split of `packed` bytes of payload.
     fn chunk(nbytes: u32, packed: u32) -> Vec<u8> {
-        let mut bytes = vec![
-            FORMAT_VERSION,
-            1,
-            FLAG_SHUFFLE | FLAG_UNSPLIT | CODEC_LZ4 << CODEC_SHIFT,
-            4,
-        ];
+        let mut bytes = vec![FORMAT_VERSION, 1, FLAG_SHUFFLE | FLAG_UNSPLIT | CODEC_LZ4 << CODEC_SHIFT, 4];
         for word in [nbytes, nbytes, 24 + packed, 20, packed] {
             bytes.extend(word.to_le_bytes());
         }
@@ -167,16 +141,7 @@ mod tests {
         assert!(check(&sound, 1024).is_err(), "unpacked size");
         assert!(check(&sound[..80], 2048).is_err(), "truncated");
         assert!(check(&sound[..15], 2048).is_err(), "short header");
-        for (byte, value) in [
-            (0, 1),
-            (1, 9),
-            (2, 0x04),
-            (2, 0x71),
-            (3, 0),
-            (5, 0),
-            (9, 0x10),
-            (12, 1),
-        ] {
+        for (byte, value) in [(0, 1), (1, 9), (2, 0x04), (2, 0x71), (3, 0), (5, 0), (9, 0x10), (12, 1)] {
             let mut lie = sound.clone();
             lie[byte] = value;
             assert!(check(&lie, 2048).is_err(), "byte {byte} = {value}");

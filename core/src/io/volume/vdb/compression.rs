@@ -31,10 +31,7 @@ impl Compression {
     /// From the flags in the file; `at` is their offset, in bytes.
     pub(super) fn from_flags(flags: u32, at: u64) -> Result<Self, Fault> {
         if flags & !(ZIP | ACTIVE_MASK | BLOSC) != 0 {
-            return Err(Fault::invalid(
-                at,
-                format!("unknown compression flags {flags:#x}"),
-            ));
+            return Err(Fault::invalid(at, format!("unknown compression flags {flags:#x}")));
         }
         // A file that sets both is read as blosc by OpenVDB.
         let codec = match (flags & BLOSC != 0, flags & ZIP != 0) {
@@ -42,10 +39,7 @@ impl Compression {
             (false, true) => Codec::Zip,
             (false, false) => Codec::None,
         };
-        Ok(Self {
-            codec,
-            active_mask: flags & ACTIVE_MASK != 0,
-        })
+        Ok(Self { codec, active_mask: flags & ACTIVE_MASK != 0 })
     }
 
     /// The flags again, for the transcript.
@@ -76,10 +70,7 @@ pub(super) fn chunk<'a>(
         if size.unsigned_abs() != unpacked as u64 && unpacked != 0 {
             return Err(Fault::invalid(
                 at,
-                format!(
-                    "an unpacked chunk of {} bytes instead of {unpacked}",
-                    size.unsigned_abs()
-                ),
+                format!("an unpacked chunk of {} bytes instead of {unpacked}", size.unsigned_abs()),
             ));
         }
         return Ok((Some(size), cursor.take(unpacked)?));

@@ -28,32 +28,16 @@ pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid,
         values.extend_from_slice(background);
     }
 
-    // Slabs of eight z planes, aligned to the leaves, can be filled side by side.
-    let first_slab = bbox.min[2].div_euclid(LEAF_EDGE);
-    let slab_count = (bbox.max[2].div_euclid(LEAF_EDGE) - first_slab) as usize + 1;
-    let mut leaves_of_slab = vec![Vec::new(); slab_count];
-    for (leaf, leaf_values) in sparse.leaves() {
-        let slab = leaf.origin[2].div_euclid(LEAF_EDGE) - first_slab;
-        // A leaf without active voxels may lie outside the box.
-        if let Some(leaves) = usize::try_from(slab)
-            .ok()
-            .and_then(|n| leaves_of_slab.get_mut(n))
-        {
-            leaves.push((leaf, leaf_values));
-        }
-    }
     let slabs = split_slabs(&mut values, &bbox, size[0] * size[1] * channels);
-    slabs
-        .into_par_iter()
-        .zip(leaves_of_slab)
-        .for_each(|(mut slab, leaves)| {
-            for tile in &sparse.tiles {
-                slab.fill_tile(tile, channels);
-            }
-            for (leaf, leaf_values) in leaves {
-                slab.fill_leaf(leaf, leaf_values, channels);
-            }
-        });
+    let contents = sort_into_slabs(sparse, &bbox, slabs.len());
+    slabs.into_par_iter().zip(contents).for_each(|(mut slab, contents)| {
+        for tile in contents.tiles {
+            slab.fill_tile(tile, channels);
+        }
+        for (leaf, leaf_values) in contents.leaves {
+            slab.fill_leaf(leaf, leaf_values, channels);
+        }
+    });
 
     let mut grid = VoxelGrid {
         name: String::new(),
@@ -72,10 +56,18 @@ pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid,
     Ok(grid)
 }
 
-/// Some z planes of the dense grid.
+/// Up to eight z planes of the dense grid, aligned to the leaves: slabs share no leaf, and can be
+/// filled side by side.
 struct Slab<'a> {
     values: &'a mut [f32],
     bbox: IndexBox,
+}
+
+/// What a slab is filled with.
+#[derive(Default)]
+struct SlabContents<'a> {
+    tiles: Vec<&'a Tile>,
+    leaves: Vec<(&'a Leaf, &'a [f32])>,
 }
 
 /// Cuts the dense values at every multiple of eight in z.
@@ -87,17 +79,34 @@ fn split_slabs<'a>(values: &'a mut [f32], bbox: &IndexBox, plane: usize) -> Vec<
         let last = (z | (LEAF_EDGE - 1)).min(bbox.max[2]);
         let (values, behind) = rest.split_at_mut((last - z + 1) as usize * plane);
         let ([x0, y0, _], [x1, y1, _]) = (bbox.min, bbox.max);
-        slabs.push(Slab {
-            values,
-            bbox: IndexBox {
-                min: [x0, y0, z],
-                max: [x1, y1, last],
-            },
-        });
+        slabs.push(Slab { values, bbox: IndexBox { min: [x0, y0, z], max: [x1, y1, last] } });
         rest = behind;
         z = last.saturating_add(1);
     }
     slabs
+}
+
+/// Lists for each slab the tiles and leaves that reach into it.
+fn sort_into_slabs<'a>(sparse: &'a SparseGrid, bbox: &IndexBox, slab_count: usize) -> Vec<SlabContents<'a>> {
+    let mut contents: Vec<SlabContents> = Vec::new();
+    contents.resize_with(slab_count, SlabContents::default);
+    let slab_of = |z: i32| (z.div_euclid(LEAF_EDGE) - bbox.min[2].div_euclid(LEAF_EDGE)) as usize;
+    for tile in &sparse.tiles {
+        let z_range = tile.bbox().intersection(bbox).map(|common| (common.min[2], common.max[2]));
+        let Some((first, last)) = z_range else {
+            continue;
+        };
+        for slab in contents.iter_mut().take(slab_of(last) + 1).skip(slab_of(first)) {
+            slab.tiles.push(tile);
+        }
+    }
+    // A leaf without active voxels may lie outside the box, and has nothing to fill in.
+    for (leaf, values) in sparse.leaves().filter(|(leaf, _)| leaf.active != [0; 8]) {
+        if let Some(slab) = contents.get_mut(slab_of(leaf.origin[2])) {
+            slab.leaves.push((leaf, values));
+        }
+    }
+    contents
 }
 
 impl Slab<'_> {

@@ -53,11 +53,7 @@ impl GridDescriptor {
         let at = cursor.position();
         let (grid, blocks, end) = (cursor.u64()?, cursor.u64()?, cursor.u64()?);
         // An instance has no leaf values, and an offset of 0 for them.
-        let blocks = if instance_parent.is_empty() {
-            blocks
-        } else {
-            end
-        };
+        let blocks = if instance_parent.is_empty() { blocks } else { end };
         let here = cursor.position();
         let extent = if header.has_offsets {
             let file_end = here + cursor.remaining() as u64;
@@ -70,30 +66,15 @@ impl GridDescriptor {
                     ),
                 ));
             }
-            Extent {
-                grid,
-                blocks: Some(blocks),
-                end: Some(end),
-            }
+            Extent { grid, blocks: Some(blocks), end: Some(end) }
         } else {
-            Extent {
-                grid: here,
-                blocks: None,
-                end: None,
-            }
+            Extent { grid: here, blocks: None, end: None }
         };
         let display_name = match unique_name.split_once(NAME_SEPARATOR) {
             Some((name, _)) => name.to_owned(),
             None => unique_name.clone(),
         };
-        Ok(Self {
-            unique_name,
-            display_name,
-            tree_type,
-            half,
-            instance_parent,
-            extent,
-        })
+        Ok(Self { unique_name, display_name, tree_type, half, instance_parent, extent })
     }
 }
 

@@ -33,10 +33,7 @@ impl Header {
     /// Reads the head; the cursor is left at the first grid descriptor.
     pub(super) fn read(cursor: &mut Cursor) -> Result<Self, Fault> {
         if cursor.take(MAGIC.len()).ok() != Some(MAGIC.as_slice()) {
-            return Err(Fault::invalid(
-                0,
-                "this is not an OpenVDB file: its magic number is missing",
-            ));
+            return Err(Fault::invalid(0, "this is not an OpenVDB file: its magic number is missing"));
         }
         let version = cursor.u32()?;
         if !(VERSION_SELECTIVE_COMPRESSION..=VERSION_NEWEST).contains(&version) {
@@ -51,19 +48,11 @@ impl Header {
         }
         let _library = (cursor.u32()?, cursor.u32()?);
         let has_offsets = cursor.u8()? != 0;
-        let compression = if version < VERSION_NODE_MASK_COMPRESSION {
-            u32::from(cursor.u8()? != 0)
-        } else {
-            0
-        };
+        let compression =
+            if version < VERSION_NODE_MASK_COMPRESSION { u32::from(cursor.u8()? != 0) } else { 0 };
         cursor.take(UUID_BYTES)?;
         Metadata::read(cursor)?;
         let grid_count = cursor.u32()?;
-        Ok(Self {
-            version,
-            has_offsets,
-            compression,
-            grid_count,
-        })
+        Ok(Self { version, has_offsets, compression, grid_count })
     }
 }

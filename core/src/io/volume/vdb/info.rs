@@ -75,22 +75,14 @@ pub enum Background {
 /// The file as a whole cannot be read.
 pub fn info(path: &Path) -> Result<Vec<GridInfo>, VolumeError> {
     let limits = Limits::default();
-    info_bytes(
-        &file::read(path, &limits)?,
-        &path.display().to_string(),
-        &limits,
-    )
+    info_bytes(&file::read(path, &limits)?, &path.display().to_string(), &limits)
 }
 
 /// [`info`] for a file in memory; `label` stands for its path in messages.
 ///
 /// # Errors
 /// The file as a whole cannot be read.
-pub fn info_bytes(
-    bytes: &[u8],
-    label: &str,
-    limits: &Limits,
-) -> Result<Vec<GridInfo>, VolumeError> {
+pub fn info_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<Vec<GridInfo>, VolumeError> {
     let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
     let describe = |index| {
         let mut info = describe_head(&archive, index);
@@ -107,10 +99,7 @@ pub fn info_bytes(
         );
         let fault = Fault::unsupported(what, "Save the file again, with grid offsets");
         let error = Some(fault.in_file(label, None).to_string());
-        grids.push(GridInfo {
-            error,
-            ..GridInfo::default()
-        });
+        grids.push(GridInfo { error, ..GridInfo::default() });
     }
     Ok(grids)
 }
@@ -127,10 +116,7 @@ fn describe_head(archive: &Archive, index: usize) -> GridInfo {
     };
     if let Ok(head) = archive.grid_head(grid) {
         info.class = preflight::class(head.metadata.text("class"));
-        info.half = head
-            .metadata
-            .boolean("is_saved_as_half_float")
-            .unwrap_or(grid.half);
+        info.half = head.metadata.boolean("is_saved_as_half_float").unwrap_or(grid.half);
         info.map = head.map_type;
     }
     info

@@ -67,28 +67,21 @@ fn affine(cursor: &mut Cursor) -> Result<DAffine3, Fault> {
         .at(at));
     }
     let [x, y, z, translation] = rows;
-    Ok(DAffine3 {
-        matrix3: DMat3::from_cols(x, y, z),
-        translation,
-    })
+    Ok(DAffine3 { matrix3: DMat3::from_cols(x, y, z), translation })
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 
     fn bytes(numbers: &[f64]) -> Vec<u8> {
-        numbers
-            .iter()
-            .flat_map(|number| number.to_le_bytes())
-            .collect()
+        numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
     }
 
     #[test]
     fn affine_map_applies_to_row_vectors() {
-        let rows = [
-            0., 2., 0., 0., -1., 0., 0., 0., 0., 0., 3., 0., 7., 8., 9., 1.,
-        ];
+        let rows = [0., 2., 0., 0., -1., 0., 0., 0., 0., 0., 3., 0., 7., 8., 9., 1.];
         let bytes = bytes(&rows);
         let mut cursor = Cursor::new(&bytes);
         let map = read("AffineMap", &mut cursor).unwrap();

@@ -19,21 +19,12 @@ pub(super) fn ones(words: &[u64]) -> impl Iterator<Item = usize> + '_ {
 /// Offset of entry `index` of a node with 2^`log2_dim` entries of size `edge` per axis.
 pub(super) fn entry_offset(index: usize, log2_dim: u32, edge: i32) -> [i32; 3] {
     let low = (1 << log2_dim) - 1;
-    [
-        index >> (2 * log2_dim),
-        (index >> log2_dim) & low,
-        index & low,
-    ]
-    .map(|n| n as i32 * edge)
+    [index >> (2 * log2_dim), (index >> log2_dim) & low, index & low].map(|n| n as i32 * edge)
 }
 
 /// Component-wise sum. Node origins are checked so that no voxel of theirs leaves i32.
 pub(super) fn add(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
-    [
-        a[0].saturating_add(b[0]),
-        a[1].saturating_add(b[1]),
-        a[2].saturating_add(b[2]),
-    ]
+    [a[0].saturating_add(b[0]), a[1].saturating_add(b[1]), a[2].saturating_add(b[2])]
 }
 
 #[cfg(test)]

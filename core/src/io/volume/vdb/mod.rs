@@ -63,17 +63,8 @@ const DEFAULT_GRID: &str = "density";
 /// # Errors
 /// The file is missing, damaged or too large, the grid is not of a supported kind, or there is no
 /// grid of that name.
-pub fn read_vdb(
-    path: &Path,
-    grid: Option<&str>,
-    limits: &Limits,
-) -> Result<VoxelGrid, VolumeError> {
-    read_vdb_bytes(
-        &file::read(path, limits)?,
-        &path.display().to_string(),
-        grid,
-        limits,
-    )
+pub fn read_vdb(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+    read_vdb_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
 }
 
 /// [`read_vdb`] for a file in memory; `label` stands for its path in messages.
@@ -93,12 +84,7 @@ pub fn read_vdb_bytes(
         let world_from_index = preflight.world_from_index;
         let level_set = preflight.class == "level set";
         let dense = dense::densify(&read::unpack(preflight)?, limits)?;
-        Ok(VoxelGrid {
-            name: name.clone(),
-            world_from_index,
-            level_set,
-            ..dense
-        })
+        Ok(VoxelGrid { name: name.clone(), world_from_index, level_set, ..dense })
     };
     dense(preflight).map_err(|fault: Fault| fault.in_file(label, Some(name)))
 }
@@ -117,18 +103,11 @@ fn choose(
             .map_err(|fault| fault.in_file(label, Some(name)))
     };
     let wanted = grid.unwrap_or(DEFAULT_GRID);
-    if let Some(index) = archive
-        .grids
-        .iter()
-        .position(|grid| grid.display_name == wanted)
-    {
+    if let Some(index) = archive.grids.iter().position(|grid| grid.display_name == wanted) {
         return check(index);
     }
-    let no_such_grid = |what: String| VolumeError::NoSuchGrid {
-        file: label.to_owned(),
-        what,
-        available: archive.names(),
-    };
+    let no_such_grid =
+        |what: String| VolumeError::NoSuchGrid { file: label.to_owned(), what, available: archive.names() };
     if grid.is_some() {
         return Err(no_such_grid(format!("it has no grid named \"{wanted}\"")));
     }

@@ -2,12 +2,11 @@
 
 use glam::DAffine3;
 
-use super::super::cursor::Cursor;
 use super::super::error::Fault;
 use super::super::limits::Limits;
 use super::archive::Archive;
 use super::block::BlockFormat;
-use super::descriptor::{Extent, GridDescriptor};
+use super::descriptor::GridDescriptor;
 use super::transcript::Transcript;
 use super::tree::{Topology, Walk};
 use super::value_type::ValueType;
@@ -34,7 +33,7 @@ pub(super) fn check(archive: &Archive, index: usize, limits: &Limits) -> Result<
     let head = archive.grid_head(grid)?;
     let (world_from_index, _) = head.map?;
     let owner = archive.tree_owner(grid)?;
-    let (transcript, format, topology, _end) = walk(archive, owner, limits)?;
+    let WalkedTree { transcript, format, topology, .. } = walk(archive, owner, limits)?;
     let bbox_min = head.metadata.vec3i("file_bbox_min");
     let bbox_max = head.metadata.vec3i("file_bbox_max");
     Ok(Preflight {
@@ -44,24 +43,20 @@ pub(super) fn check(archive: &Archive, index: usize, limits: &Limits) -> Result<
         world_from_index,
         class: class(head.metadata.text("class")),
         voxel_count: head.metadata.int64("file_voxel_count"),
-        bbox: bbox_min
-            .zip(bbox_max)
-            .map(|([x, y, z], [u, v, w])| [x, y, z, u, v, w]),
+        bbox: bbox_min.zip(bbox_max).map(|([x, y, z], [u, v, w])| [x, y, z, u, v, w]),
     })
 }
 
 /// Grid class from its metadata entry.
 pub(super) fn class(entry: Option<String>) -> String {
-    entry
-        .filter(|class| !class.is_empty())
-        .unwrap_or_else(|| "unknown".to_owned())
+    entry.filter(|class| !class.is_empty()).unwrap_or_else(|| "unknown".to_owned())
 }
 
 /// Where the bytes of a grid end in a file that does not say so, in bytes.
 pub(super) fn end_of_grid(archive: &Archive, index: usize, limits: &Limits) -> Result<u64, Fault> {
     let grid = descriptor(archive, index)?;
     if grid.instance_parent.is_empty() {
-        walk(archive, grid, limits).map(|(.., end)| end)
+        walk(archive, grid, limits).map(|tree| tree.end)
     } else {
         let (_, cursor) = archive.grid_head(grid)?.map?;
         Ok(cursor.position())
@@ -69,53 +64,46 @@ pub(super) fn end_of_grid(archive: &Archive, index: usize, limits: &Limits) -> R
 }
 
 fn descriptor<'a>(archive: &'a Archive, index: usize) -> Result<&'a GridDescriptor, Fault> {
-    archive
-        .grids
-        .get(index)
-        .ok_or_else(|| Fault::invalid(None, format!("no grid number {index}")))
+    archive.grids.get(index).ok_or_else(|| Fault::invalid(None, format!("no grid number {index}")))
 }
 
-/// Walks the tree of a grid that has one; returns its end in the file as well.
-fn walk(
-    archive: &Archive,
-    grid: &GridDescriptor,
-    limits: &Limits,
-) -> Result<(Vec<u8>, BlockFormat, Topology, u64), Fault> {
+/// A tree that has been walked from its first byte to its last.
+struct WalkedTree {
+    transcript: Vec<u8>,
+    format: BlockFormat,
+    topology: Topology,
+    /// Offset of the byte behind it in the file.
+    end: u64,
+}
+
+/// Walks the tree of a grid that has one of its own.
+fn walk(archive: &Archive, grid: &GridDescriptor, limits: &Limits) -> Result<WalkedTree, Fault> {
     let value_type = ValueType::of_tree(&grid.tree_type)?;
     let head = archive.grid_head(grid)?;
     let (_, cursor) = head.map?;
-    let half = head
-        .metadata
-        .boolean("is_saved_as_half_float")
-        .unwrap_or(grid.half);
+    let half = head.metadata.boolean("is_saved_as_half_float").unwrap_or(grid.half);
     let format = BlockFormat {
         version: archive.header.version,
         compression: head.compression,
         value_type,
         stored: value_type.stored(half),
     };
-    walk_tree(cursor, grid.extent, format, limits)
-}
-
-fn walk_tree(
-    cursor: Cursor,
-    extent: Extent,
-    format: BlockFormat,
-    limits: &Limits,
-) -> Result<(Vec<u8>, BlockFormat, Topology, u64), Fault> {
-    // Nothing in a transcript is longer than in the file, but for the size of empty half chunks.
+    // A transcript is not much longer than what it is made of: all else in it fits 512 bytes.
     let mut transcript = Transcript::begin(&format, 512 + cursor.remaining());
     let mut walk = Walk::new(cursor, transcript.tree(), format, limits);
     walk.topology()?;
-    if let Some(blocks) = extent.blocks {
+    if let Some(blocks) = grid.extent.blocks {
         walk.expect_leaf_values_at(blocks)?;
     }
-    let (topology, blocks, end) = walk.leaf_values()?;
-    if let Some(expected) = extent.end.filter(|&expected| expected != end) {
+    let blocks = walk.written();
+    walk.leaf_values()?;
+    let end = walk.position();
+    if let Some(expected) = grid.extent.end.filter(|&expected| expected != end) {
         return Err(Fault::invalid(
             end,
             format!("the leaf values end here, but the grid is said to end at byte {expected}"),
         ));
     }
-    Ok((transcript.finish(blocks), format, topology, end))
+    let topology = walk.finish();
+    Ok(WalkedTree { transcript: transcript.finish(blocks), format, topology, end })
 }

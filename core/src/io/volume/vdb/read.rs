@@ -51,14 +51,7 @@ impl_stored_value! {
 /// `vdb-rs` fails, or its tree disagrees with the walk, or with the writer's own voxel count and
 /// bounding box.
 pub(super) fn unpack(preflight: Preflight) -> Result<SparseGrid, Fault> {
-    let Preflight {
-        transcript,
-        format,
-        topology,
-        voxel_count,
-        bbox,
-        ..
-    } = preflight;
+    let Preflight { transcript, format, topology, voxel_count, bbox, .. } = preflight;
     // The transcript holds nothing that `vdb-rs` is known to panic on. Should it all the same,
     // the user gets an error and keeps the program.
     let unpacked = catch_unwind(AssertUnwindSafe(|| unpack_transcript(&transcript, &format)));
@@ -79,10 +72,7 @@ fn unpack_transcript(transcript: &[u8], format: &BlockFormat) -> Result<SparseGr
     macro_rules! unpack_as {
         ($stored:ty) => {{
             let mut reader = VdbReader::new(IoCursor::new(transcript)).map_err(refusal)?;
-            flatten(
-                reader.read_grid::<$stored>(GRID_NAME).map_err(refusal)?,
-                format,
-            )
+            flatten(reader.read_grid::<$stored>(GRID_NAME).map_err(refusal)?, format)
         }};
     }
     match format.stored {
@@ -110,12 +100,7 @@ fn refusal(error: vdb_rs::ParseError) -> Fault {
 /// Turns the tree into leaves and tiles, consuming it node by node to keep the memory low.
 fn flatten<T: StoredValue>(tree: Grid<T>, format: &BlockFormat) -> Result<SparseGrid, Fault> {
     let channels = format.value_type.channels();
-    let lower_nodes = || {
-        tree.tree
-            .root_nodes
-            .iter()
-            .flat_map(|upper| upper.nodes.values())
-    };
+    let lower_nodes = || tree.tree.root_nodes.iter().flat_map(|upper| upper.nodes.values());
     let leaf_count: usize = lower_nodes().map(|lower| lower.nodes.len()).sum();
     let mut grid = SparseGrid {
         channels,
@@ -125,53 +110,23 @@ fn flatten<T: StoredValue>(tree: Grid<T>, format: &BlockFormat) -> Result<Sparse
         tiles: Vec::new(),
     };
     for upper in tree.tree.root_nodes {
-        let Node5 {
-            child_mask,
-            value_mask,
-            nodes,
-            data,
-            origin,
-        } = upper;
+        let Node5 { child_mask, value_mask, nodes, data, origin } = upper;
         let masks = (child_mask.as_raw_slice(), value_mask.as_raw_slice());
-        push_tiles(
-            &mut grid.tiles,
-            masks,
-            &data,
-            origin.to_array(),
-            (5, UPPER_EDGE),
-            format,
-        )?;
+        push_tiles(&mut grid.tiles, masks, &data, origin.to_array(), (5, UPPER_EDGE), format)?;
         // vdb-rs keeps children in a hash map; the file has them in ascending order.
         for (_, lower) in in_order(nodes) {
-            let Node4 {
-                child_mask,
-                value_mask,
-                nodes,
-                data,
-                origin,
-            } = lower;
+            let Node4 { child_mask, value_mask, nodes, data, origin } = lower;
             let masks = (child_mask.as_raw_slice(), value_mask.as_raw_slice());
-            push_tiles(
-                &mut grid.tiles,
-                masks,
-                &data,
-                origin.to_array(),
-                (4, LEAF_EDGE),
-                format,
-            )?;
+            push_tiles(&mut grid.tiles, masks, &data, origin.to_array(), (4, LEAF_EDGE), format)?;
             for (_, leaf) in in_order(nodes) {
                 let words = leaf.value_mask.as_raw_slice();
                 let active = <[u64; 8]>::try_from(words).map_err(|_| wrong_length("leaf mask"))?;
                 if leaf.buffer.len() != LEAF_VOXELS {
                     return Err(wrong_length("leaf"));
                 }
-                grid.leaves.push(Leaf {
-                    origin: leaf.origin.to_array(),
-                    active,
-                });
+                grid.leaves.push(Leaf { origin: leaf.origin.to_array(), active });
                 for value in leaf.buffer {
-                    grid.leaf_values
-                        .extend_from_slice(&value.channels()[..channels]);
+                    grid.leaf_values.extend_from_slice(&value.channels()[..channels]);
                 }
             }
         }
@@ -195,23 +150,15 @@ fn push_tiles<T: StoredValue>(
     format: &BlockFormat,
 ) -> Result<(), Fault> {
     // Before version 222 a node stores no values for its children, so positions shift.
-    let mut children = mask::ones(children)
-        .filter(|_| !format.is_tagged())
-        .peekable();
+    let mut children = mask::ones(children).filter(|_| !format.is_tagged()).peekable();
     let mut children_before = 0;
     for entry in mask::ones(active) {
         while children.next_if(|&child| child < entry).is_some() {
             children_before += 1;
         }
-        let value = data
-            .get(entry - children_before)
-            .ok_or_else(|| wrong_length("tile block"))?;
+        let value = data.get(entry - children_before).ok_or_else(|| wrong_length("tile block"))?;
         let origin = mask::add(origin, mask::entry_offset(entry, log2_dim, edge));
-        tiles.push(Tile {
-            origin,
-            edge,
-            value: value.channels(),
-        });
+        tiles.push(Tile { origin, edge, value: value.channels() });
     }
     Ok(())
 }
@@ -222,37 +169,25 @@ fn wrong_length(what: &str) -> Fault {
 
 /// The tree of `vdb-rs` has the leaves of our walk, in the same order.
 fn check_topology(grid: &SparseGrid, topology: &Topology) -> Result<(), Fault> {
-    let same =
-        |(leaf, walked): (&Leaf, &([i32; 3], [u64; 8]))| (leaf.origin, leaf.active) == *walked;
+    let same = |(leaf, walked): (&Leaf, &([i32; 3], [u64; 8]))| (leaf.origin, leaf.active) == *walked;
     let all = grid.leaves.iter().zip(&topology.leaves).all(same);
     if all && grid.leaves.len() == topology.leaves.len() {
         return Ok(());
     }
-    Err(Fault::invalid(
-        None,
-        "vdb-rs found other leaves than our own walk through the tree",
-    ))
+    Err(Fault::invalid(None, "vdb-rs found other leaves than our own walk through the tree"))
 }
 
 /// Voxel count and bounding box agree with what the writer noted, where it did.
-fn check_summary(
-    grid: &SparseGrid,
-    voxel_count: Option<i64>,
-    bbox: Option<[i32; 6]>,
-) -> Result<(), Fault> {
+fn check_summary(grid: &SparseGrid, voxel_count: Option<i64>, bbox: Option<[i32; 6]>) -> Result<(), Fault> {
     let counted = grid.active_voxels();
     if let Some(noted) = voxel_count.filter(|&noted| u64::try_from(noted) != Ok(counted)) {
-        return Err(Fault::invalid(
-            None,
-            format!("{counted} active voxels, but the file notes {noted}"),
-        ));
+        return Err(Fault::invalid(None, format!("{counted} active voxels, but the file notes {noted}")));
     }
     let found = grid.active_bbox().map(|bbox| bbox.to_array());
     match (found, bbox) {
-        (Some(found), Some(noted)) if found != noted => Err(Fault::invalid(
-            None,
-            format!("active voxels in {found:?}, but the file notes {noted:?}"),
-        )),
+        (Some(found), Some(noted)) if found != noted => {
+            Err(Fault::invalid(None, format!("active voxels in {found:?}, but the file notes {noted:?}")))
+        }
         _ => Ok(()),
     }
 }

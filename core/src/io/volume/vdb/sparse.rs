@@ -65,21 +65,13 @@ impl SparseGrid {
     /// The box around the active voxels; `None` if there are none.
     pub(super) fn active_bbox(&self) -> Option<IndexBox> {
         let leaves = self.leaves.iter().filter_map(Leaf::active_bbox);
-        leaves
-            .chain(self.tiles.iter().map(Tile::bbox))
-            .reduce(IndexBox::union)
+        leaves.chain(self.tiles.iter().map(Tile::bbox)).reduce(IndexBox::union)
     }
 
     /// Number of active voxels.
     pub(super) fn active_voxels(&self) -> u64 {
-        let in_leaves: u64 = self
-            .leaves
-            .iter()
-            .map(|l| mask::count_ones(&l.active) as u64)
-            .sum();
-        self.tiles
-            .iter()
-            .fold(in_leaves, |sum, tile| sum.saturating_add(tile.voxels()))
+        let in_leaves: u64 = self.leaves.iter().map(|l| mask::count_ones(&l.active) as u64).sum();
+        self.tiles.iter().fold(in_leaves, |sum, tile| sum.saturating_add(tile.voxels()))
     }
 
     /// Summary of the active voxels.
@@ -87,10 +79,7 @@ impl SparseGrid {
         let mut stats = ActiveStats::default();
         for (leaf, values) in self.leaves() {
             for voxel in mask::ones(&leaf.active) {
-                stats.add(
-                    &values[voxel * self.channels..(voxel + 1) * self.channels],
-                    1,
-                );
+                stats.add(&values[voxel * self.channels..(voxel + 1) * self.channels], 1);
             }
         }
         for tile in &self.tiles {
@@ -102,28 +91,14 @@ impl SparseGrid {
 
 impl Leaf {
     fn active_bbox(&self) -> Option<IndexBox> {
-        let x_bits = self
-            .active
-            .iter()
-            .rev()
-            .fold(0_u8, |bits, &w| bits << 1 | u8::from(w != 0));
-        let rows = self
-            .active
-            .iter()
-            .fold(0, |all, word| all | word)
-            .to_le_bytes();
-        let y_bits = rows
-            .iter()
-            .rev()
-            .fold(0_u8, |bits, &row| bits << 1 | u8::from(row != 0));
+        let x_bits = self.active.iter().rev().fold(0_u8, |bits, &w| bits << 1 | u8::from(w != 0));
+        let rows = self.active.iter().fold(0, |all, word| all | word).to_le_bytes();
+        let y_bits = rows.iter().rev().fold(0_u8, |bits, &row| bits << 1 | u8::from(row != 0));
         let z_bits = rows.iter().fold(0, |all, row| all | row);
         let axes = [x_bits, y_bits, z_bits];
         (x_bits != 0).then(|| IndexBox {
             min: mask::add(self.origin, axes.map(|bits| bits.trailing_zeros() as i32)),
-            max: mask::add(
-                self.origin,
-                axes.map(|bits| LEAF_EDGE - 1 - bits.leading_zeros() as i32),
-            ),
+            max: mask::add(self.origin, axes.map(|bits| LEAF_EDGE - 1 - bits.leading_zeros() as i32)),
         })
     }
 }
@@ -134,10 +109,7 @@ impl Tile {
     }
 
     pub(super) fn bbox(&self) -> IndexBox {
-        IndexBox {
-            min: self.origin,
-            max: mask::add(self.origin, [self.edge - 1; 3]),
-        }
+        IndexBox { min: self.origin, max: mask::add(self.origin, [self.edge - 1; 3]) }
     }
 }
 
@@ -153,10 +125,7 @@ impl IndexBox {
     pub(super) fn intersection(&self, other: &Self) -> Option<Self> {
         let min = [0, 1, 2].map(|axis| self.min[axis].max(other.min[axis]));
         let max = [0, 1, 2].map(|axis| self.max[axis].min(other.max[axis]));
-        min.iter()
-            .zip(&max)
-            .all(|(min, max)| min <= max)
-            .then_some(Self { min, max })
+        min.iter().zip(&max).all(|(min, max)| min <= max).then_some(Self { min, max })
     }
 
     /// Voxels along each axis.
@@ -199,27 +168,17 @@ mod tests {
 
     #[test]
     fn leaf_bbox_is_tight() {
-        let mut leaf = Leaf {
-            origin: [8, -8, 16],
-            active: [0; 8],
-        };
+        let mut leaf = Leaf { origin: [8, -8, 16], active: [0; 8] };
         assert_eq!(leaf.active_bbox(), None);
         leaf.active[2] = 1 << (8 * 3 + 5);
         leaf.active[6] = 1 << (8 * 7 + 1);
-        let expected = IndexBox {
-            min: [10, -5, 17],
-            max: [14, -1, 21],
-        };
+        let expected = IndexBox { min: [10, -5, 17], max: [14, -1, 21] };
         assert_eq!(leaf.active_bbox(), Some(expected));
     }
 
     #[test]
     fn tiles_count_by_volume() {
-        let tile = |edge, value| Tile {
-            origin: [0; 3],
-            edge,
-            value: [value; 3],
-        };
+        let tile = |edge, value| Tile { origin: [0; 3], edge, value: [value; 3] };
         let grid = SparseGrid {
             channels: 1,
             background: [0.0; 3],

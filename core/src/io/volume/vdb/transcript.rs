@@ -50,11 +50,7 @@ impl Transcript {
         bytes.push(u8::from(format.stored.is_half()));
         push_text(&mut bytes, "UniformScaleMap"); // not used: we have read the true map
         bytes.extend([0; 5 * 3 * size_of::<f64>()]);
-        Self {
-            bytes,
-            offsets_at,
-            grid,
-        }
+        Self { bytes, offsets_at, grid }
     }
 
     /// Where the walk appends what it has checked.

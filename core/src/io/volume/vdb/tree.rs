@@ -35,8 +35,6 @@ pub(super) struct Topology {
     pub(super) background: [f32; 3],
     /// Active tiles of the root; `vdb-rs` passes over them, so they are taken from here.
     pub(super) root_tiles: Vec<Tile>,
-    /// Children of the root.
-    pub(super) upper_nodes: usize,
     /// Origin and active mask of each leaf, in file order.
     pub(super) leaves: Vec<([i32; 3], [u64; LEAF_WORDS])>,
 }
@@ -74,15 +72,17 @@ impl<'a, 'out> Walk<'a, 'out> {
         self.cursor.position()
     }
 
+    /// Bytes in the transcript so far.
+    pub(super) fn written(&self) -> u64 {
+        self.out.len() as u64
+    }
+
     /// First half: the root, its tiles, and all masks.
     pub(super) fn topology(&mut self) -> Result<(), Fault> {
         let at = self.position();
         let buffers = self.cursor.u32()?;
         if buffers != 1 {
-            return Err(Fault::invalid(
-                at,
-                format!("a tree with {buffers} buffers instead of 1"),
-            ));
+            return Err(Fault::invalid(at, format!("a tree with {buffers} buffers instead of 1")));
         }
         self.topology.background = self.format.value_type.read(&mut self.cursor)?;
         let (tiles, children) = (self.cursor.u32()?, self.cursor.u32()?);
@@ -95,11 +95,7 @@ impl<'a, 'out> Walk<'a, 'out> {
             let origin = self.root_origin(&mut origins)?;
             let value = self.format.value_type.read(&mut self.cursor)?;
             if self.cursor.u8()? != 0 {
-                self.topology.root_tiles.push(Tile {
-                    origin,
-                    edge: ROOT_EDGE,
-                    value,
-                });
+                self.topology.root_tiles.push(Tile { origin, edge: ROOT_EDGE, value });
             }
         }
         for _ in 0..children {
@@ -108,15 +104,12 @@ impl<'a, 'out> Walk<'a, 'out> {
                 self.out.extend(coordinate.to_le_bytes());
             }
             self.upper_node(origin)?;
-            self.topology.upper_nodes += 1;
         }
         Ok(())
     }
 
-    /// Second half: the values of the leaves. Returns what was found, where the leaf values start
-    /// in the transcript, and where they end in the file, in bytes.
-    pub(super) fn leaf_values(mut self) -> Result<(Topology, u64, u64), Fault> {
-        let start = self.out.len() as u64;
+    /// Second half: the values of the leaves.
+    pub(super) fn leaf_values(&mut self) -> Result<(), Fault> {
         let leaves = std::mem::take(&mut self.topology.leaves);
         for (origin, active) in &leaves {
             let at = self.position();
@@ -131,9 +124,7 @@ impl<'a, 'out> Walk<'a, 'out> {
                 if again != *origin || buffers != 1 {
                     return Err(Fault::invalid(
                         at,
-                        format!(
-                            "{buffers} buffers of a leaf at {again:?} instead of 1 at {origin:?}"
-                        ),
+                        format!("{buffers} buffers of a leaf at {again:?} instead of 1 at {origin:?}"),
                     ));
                 }
                 for coordinate in origin {
@@ -144,8 +135,12 @@ impl<'a, 'out> Walk<'a, 'out> {
             self.values(LEAF_VOXELS, active)?;
         }
         self.topology.leaves = leaves;
-        let end = self.position();
-        Ok((self.topology, start, end))
+        Ok(())
+    }
+
+    /// What the walk found.
+    pub(super) fn finish(self) -> Topology {
+        self.topology
     }
 
     /// Checks that the leaf values start where the file says they do.
@@ -187,9 +182,7 @@ impl<'a, 'out> Walk<'a, 'out> {
         for child in mask::ones(&children) {
             let offset = mask::entry_offset(child, LOWER_LOG2, LEAF_EDGE);
             let active = self.masks::<LEAF_WORDS>()?;
-            self.topology
-                .leaves
-                .push((mask::add(origin, offset), active));
+            self.topology.leaves.push((mask::add(origin, offset), active));
         }
         Ok(())
     }
@@ -199,23 +192,12 @@ impl<'a, 'out> Walk<'a, 'out> {
         let at = self.position();
         let children = self.masks::<WORDS>()?;
         let active = self.masks::<WORDS>()?;
-        if children
-            .iter()
-            .zip(&active)
-            .any(|(child, tile)| child & tile != 0)
-        {
-            return Err(Fault::invalid(
-                at,
-                "a node entry that is both a child and an active tile",
-            ));
+        if children.iter().zip(&active).any(|(child, tile)| child & tile != 0) {
+            return Err(Fault::invalid(at, "a node entry that is both a child and an active tile"));
         }
         let entries = 64 * WORDS;
         // Before version 222 children have no value of their own.
-        let len = if self.format.is_tagged() {
-            entries
-        } else {
-            entries - mask::count_ones(&children)
-        };
+        let len = if self.format.is_tagged() { entries } else { entries - mask::count_ones(&children) };
         self.values(len, &active)?;
         Ok(children)
     }

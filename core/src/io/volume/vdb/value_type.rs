@@ -111,11 +111,7 @@ impl ValueType {
             })
         };
         let first = number()?;
-        Ok(if self.channels() == 1 {
-            [first; 3]
-        } else {
-            [first, number()?, number()?]
-        })
+        Ok(if self.channels() == 1 { [first; 3] } else { [first, number()?, number()?] })
     }
 }
 
@@ -139,26 +135,15 @@ impl Stored {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 
     #[test]
     fn tree_types_are_read_or_refused_by_name() {
-        assert_eq!(
-            ValueType::of_tree("Tree_float_5_4_3").unwrap(),
-            ValueType::Float
-        );
-        assert_eq!(
-            ValueType::of_tree("Tree_vec3d_5_4_3").unwrap(),
-            ValueType::Vec3d
-        );
-        for refused in [
-            "Tree_float_4_3_3",
-            "Tree_bool_5_4_3",
-            "Tree_ptdataidx32_5_4_3",
-            "",
-            "Tree_",
-        ] {
+        assert_eq!(ValueType::of_tree("Tree_float_5_4_3").unwrap(), ValueType::Float);
+        assert_eq!(ValueType::of_tree("Tree_vec3d_5_4_3").unwrap(), ValueType::Vec3d);
+        for refused in ["Tree_float_4_3_3", "Tree_bool_5_4_3", "Tree_ptdataidx32_5_4_3", "", "Tree_"] {
             assert!(ValueType::of_tree(refused).is_err(), "{refused}");
         }
     }

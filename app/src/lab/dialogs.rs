@@ -1,0 +1,124 @@
+//! Questions that the window asks: for a path, and about unsaved changes.
+
+use super::{Answer, Command, Purpose};
+use crate::theme::Palette;
+use egui::{Button, Context, Id, Key, Modal, RichText, TextEdit, Ui, vec2};
+use std::path::PathBuf;
+
+/// The question that is open.
+pub(super) enum Dialog {
+    /// A file for something.
+    Path(PathPrompt),
+    /// What to do about unsaved changes before this command.
+    Unsaved(Box<Command>),
+}
+
+/// Asks for a path. The desktop's dialog may be open beside it; whichever answers first wins.
+pub(super) struct PathPrompt {
+    pub purpose: Purpose,
+    text: String,
+    fresh: bool,
+}
+
+impl PathPrompt {
+    pub fn new(purpose: Purpose, text: String) -> Self {
+        Self { purpose, text, fresh: true }
+    }
+
+    fn words(&self) -> (&'static str, &'static str, &'static str) {
+        match self.purpose {
+            Purpose::OpenScene => ("Open scene", "Open", "path/to/scene.toml"),
+            Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Open", "path/to/volume.vdb"),
+            Purpose::EnvironmentMap(_) => ("Open environment map", "Open", "path/to/sky.exr"),
+            Purpose::SaveScene => ("Save scene", "Save", "path/to/scene.toml"),
+            Purpose::ExportExr => ("Export EXR", "Export", "path/to/render.exr"),
+            Purpose::ExportPng => ("Export PNG", "Export", "path/to/render.png"),
+        }
+    }
+
+    fn explanation(&self) -> &'static str {
+        match self.purpose {
+            Purpose::OpenScene => "A scene file. Relative paths start where the program was started.",
+            Purpose::OpenVolume => "It becomes the medium's density, fitted to length 1 around the origin.",
+            Purpose::DensityFile => "It replaces the density; the placement stays.",
+            Purpose::EnvironmentMap(_) => "An equirectangular picture, linear sRGB.",
+            Purpose::SaveScene => "An existing file is replaced.",
+            Purpose::ExportExr => "Linear radiance, standard error, and the scene, as OpenEXR.",
+            Purpose::ExportPng => "The picture as it is shown: exposure, tone curve and gamma applied.",
+        }
+    }
+}
+
+/// Shows the open question, if there is one.
+pub(super) fn dialog_ui(ctx: &Context, dialog: &mut Option<Dialog>, name: &str, commands: &mut Vec<Command>) {
+    let Some(open) = dialog else { return };
+    let response = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
+        ui.set_width(480.0);
+        ui.spacing_mut().item_spacing.y = 10.0;
+        match open {
+            Dialog::Path(prompt) => path_ui(ui, prompt, commands),
+            Dialog::Unsaved(_) => unsaved_ui(ui, name, commands),
+        }
+    });
+    if response.should_close() {
+        commands.push(Command::CloseDialog);
+    }
+}
+
+fn path_ui(ui: &mut Ui, prompt: &mut PathPrompt, commands: &mut Vec<Command>) {
+    let (title, verb, hint) = prompt.words();
+    ui.heading(title);
+    ui.label(RichText::new(prompt.explanation()).color(Palette::get(ui).weak));
+    let edit = TextEdit::singleline(&mut prompt.text).hint_text(hint).desired_width(f32::INFINITY);
+    let response = ui.add(edit.margin(vec2(8.0, 6.0))).accessible_name("Path");
+    if std::mem::take(&mut prompt.fresh) {
+        response.request_focus();
+    }
+    let entered = response.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+    let typed = prompt.text.trim().to_owned();
+    buttons(ui, |ui| {
+        let go = ui.add_enabled(!typed.is_empty(), primary(ui, verb));
+        if (go.clicked() || entered) && !typed.is_empty() {
+            commands.push(Command::Chosen(prompt.purpose, expanded(&typed)));
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::CloseDialog);
+        }
+    });
+}
+
+/// People type `~` where a shell would have replaced it.
+fn expanded(typed: &str) -> PathBuf {
+    match (typed.strip_prefix("~/"), std::env::home_dir()) {
+        (Some(rest), Some(home)) => home.join(rest),
+        _ => PathBuf::from(typed),
+    }
+}
+
+fn unsaved_ui(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    ui.heading(format!("Save the changes to {name}?"));
+    ui.label(RichText::new("They are lost otherwise.").color(Palette::get(ui).weak));
+    buttons(ui, |ui| {
+        if ui.add(primary(ui, "Save")).clicked() {
+            commands.push(Command::Answer(Answer::Save));
+        }
+        if ui.button("Discard").clicked() {
+            commands.push(Command::Answer(Answer::Discard));
+        }
+        if ui.button("Cancel").clicked() {
+            commands.push(Command::Answer(Answer::Cancel));
+        }
+    });
+}
+
+fn buttons(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        ui.spacing_mut().button_padding = vec2(14.0, 5.0);
+        add(ui);
+    });
+}
+
+fn primary<'a>(ui: &Ui, text: &'a str) -> Button<'a> {
+    let palette = Palette::get(ui);
+    Button::new(RichText::new(text).color(palette.strong)).fill(palette.accent_fill)
+}

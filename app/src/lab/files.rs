@@ -1,0 +1,174 @@
+//! The commands that touch files: opening, saving, exporting, and what a dropped file becomes.
+
+use super::dialogs::{Dialog, PathPrompt};
+use super::{Command, LabApp, Purpose, Severity};
+use crate::model::Source;
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc, PlacementDoc};
+use std::path::{Path, PathBuf};
+
+/// What a file is, by its extension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    Scene,
+    Volume,
+    Panorama,
+    Unknown,
+}
+
+impl FileKind {
+    /// Told apart by the extension alone, as while a file hovers over the window.
+    pub fn of(path: &Path) -> Self {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("toml") => Self::Scene,
+            Some("vdb" | "npy" | "vol") => Self::Volume,
+            Some("exr" | "hdr") => Self::Panorama,
+            _ => Self::Unknown,
+        }
+    }
+}
+
+impl LabApp {
+    /// Takes a file for what its extension says.
+    pub(super) fn open_any(&mut self, path: PathBuf) {
+        match FileKind::of(&path) {
+            FileKind::Scene => self.apply(Command::Open(Source::File(path))),
+            FileKind::Volume => self.attempt(|app| app.tasks.look_into(path)),
+            FileKind::Panorama => self.light_with(&path),
+            FileKind::Unknown => self.messages.fail(format!(
+                "{}: not a kind of file that Majorant reads. Scenes are .toml, volumes .vdb, .npy or .vol, environment maps .exr or .hdr.",
+                path.display()
+            )),
+        }
+    }
+
+    /// Asks for a file: a typed path always works, the desktop's dialog where there is one.
+    pub(super) fn ask(&mut self, purpose: Purpose) {
+        let suggestion = self.suggestion(purpose);
+        self.dialog = Some(Dialog::Path(PathPrompt::new(purpose, suggestion)));
+        if self.native_dialogs {
+            let directory = self.document.base().to_owned();
+            self.attempt(|app| app.tasks.pick(purpose, &directory));
+        }
+    }
+
+    /// The path that a prompt starts with.
+    fn suggestion(&self, purpose: Purpose) -> String {
+        let stem = match self.document.path() {
+            Some(path) => path.with_extension(""),
+            None => self.document.base().join(self.doc().title.to_lowercase().replace(' ', "-")),
+        };
+        let stem = stem.to_string_lossy();
+        match purpose {
+            Purpose::SaveScene => format!("{stem}.toml"),
+            Purpose::ExportExr => format!("{stem}.exr"),
+            Purpose::ExportPng => format!("{stem}.png"),
+            _ => String::new(),
+        }
+    }
+
+    /// A file was chosen for something.
+    pub(super) fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
+        match purpose {
+            Purpose::OpenScene => self.apply(Command::Open(Source::File(path))),
+            Purpose::OpenVolume => self.attempt(|app| app.tasks.look_into(path)),
+            Purpose::SaveScene => self.save_to(&path),
+            Purpose::ExportExr | Purpose::ExportPng => self.export(purpose == Purpose::ExportPng, path),
+            Purpose::DensityFile => {
+                let file = self.short_name(&path);
+                let mut doc = self.doc().clone();
+                if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut doc.medium.density {
+                    *grid = GridRef { file, grid: None };
+                }
+                self.document.edit(doc);
+            }
+            Purpose::EnvironmentMap(index) => {
+                let name = self.short_name(&path);
+                let mut doc = self.doc().clone();
+                if let Some(LightDoc::EnvironmentMap { file, .. }) = doc.lights.get_mut(index) {
+                    *file = name;
+                }
+                self.document.edit(doc);
+            }
+        }
+    }
+
+    /// A file's name as the document stores it: relative to the scene if it lies below it.
+    fn short_name(&self, path: &Path) -> String {
+        path.strip_prefix(self.document.base()).unwrap_or(path).to_string_lossy().into_owned()
+    }
+
+    /// A volume that can be read becomes the medium's density, fitted to the origin.
+    pub(super) fn fill_with(&mut self, path: &Path) {
+        let file = self.short_name(path);
+        let mut doc = self.doc().clone();
+        doc.medium.density = DensityDoc::Grid(GridRef { file, grid: None });
+        doc.medium.placement = PlacementDoc { fit: Some(1.0), ..PlacementDoc::default() };
+        self.document.edit(doc);
+        self.messages
+            .say(Severity::Done, format!("{} fills the medium, fitted to length 1.", path.display()));
+    }
+
+    /// A panorama becomes the environment map, in place of the one that is there.
+    fn light_with(&mut self, path: &Path) {
+        let name = self.short_name(path);
+        let mut doc = self.doc().clone();
+        let known = doc.lights.iter_mut().find_map(|light| match light {
+            LightDoc::EnvironmentMap { file, .. } => Some(file),
+            _ => None,
+        });
+        match known {
+            Some(file) => *file = name,
+            None => doc.lights.push(LightDoc::EnvironmentMap {
+                file: name,
+                rotate_deg: 0.0,
+                scale: 1.0,
+                visible: true,
+            }),
+        }
+        self.document.edit(doc);
+    }
+
+    /// Saves to the scene's own file, or asks for one.
+    pub(super) fn save_scene(&mut self) {
+        match self.document.path().map(Path::to_owned) {
+            Some(path) => self.save_to(&path),
+            None => self.ask(Purpose::SaveScene),
+        }
+    }
+
+    fn save_to(&mut self, path: &Path) {
+        let path = if path.extension().is_none() { path.with_extension("toml") } else { path.to_owned() };
+        match self.document.save(&path) {
+            Ok(()) => {
+                self.settings.remember(&path);
+                self.messages.say(Severity::Done, format!("Saved {}.", path.display()));
+            }
+            Err(problem) => self.messages.fail(problem),
+        }
+    }
+
+    fn export(&mut self, png: bool, path: PathBuf) {
+        let Some(snapshot) = self.shown.clone().filter(|s| s.spp > 0) else {
+            self.messages.fail("There is no picture to export yet. Wait for the first sample per pixel.");
+            return;
+        };
+        let doc = self.document.resolved();
+        self.attempt(|app| app.tasks.export(png, path, snapshot, doc));
+    }
+
+    pub(super) fn list_grids(&mut self, file: String) {
+        if file.starts_with("embedded:") || self.grids.is_listed(&file) {
+            return;
+        }
+        self.grids.begin(&file);
+        let path = self.document.base().join(&file);
+        self.attempt(|app| app.tasks.list(file, path));
+    }
+
+    fn attempt(&mut self, work: impl FnOnce(&mut Self) -> Result<(), String>) {
+        if let Err(problem) = work(self) {
+            self.messages.fail(problem);
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! What happens between frames: reads the session and finished tasks, carries out commands.
+
+use super::dialogs::Dialog;
+use super::tasks::Outcome;
+use super::{Answer, Command, LabApp, Severity, Stats, VIEW};
+use crate::model::{Source, Work, work_after};
+use crate::view::image_view::ImageView;
+use egui::{Context, TextureFilter, TextureOptions, ViewportCommand};
+use majorant_core::session::{Job, Status};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+/// An edit becomes an undo step when nothing changed for this long.
+const SETTLED_SECONDS: f64 = 0.25;
+
+/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
+const TEXTURE: TextureOptions = TextureOptions {
+    magnification: TextureFilter::Nearest,
+    minification: TextureFilter::Linear,
+    ..TextureOptions::LINEAR
+};
+
+impl LabApp {
+    /// Takes note of everything that happened since the last frame.
+    pub(super) fn update(&mut self, ctx: &Context) {
+        self.state = self.session.state(VIEW);
+        self.stats = Stats::new(&self.state, &self.doc().render);
+        self.developer.set_view(&self.document.doc().view);
+        if let Some(picture) = self.developer.take() {
+            match &mut self.texture {
+                Some(texture) => texture.set(picture.image, TEXTURE),
+                None => self.texture = Some(ctx.load_texture("picture", picture.image, TEXTURE)),
+            }
+            self.shown = Some(picture.snapshot);
+        }
+        while let Some(outcome) = self.tasks.take() {
+            self.finish(outcome);
+        }
+        self.take_dropped_files(ctx);
+        self.keep_history(ctx);
+        self.guard_window(ctx);
+        self.submit_if_needed();
+        if let Some(screenshot) = &mut self.screenshot
+            && let Some(problem) = screenshot.update(ctx)
+        {
+            self.messages.fail(problem);
+        }
+    }
+
+    fn finish(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Picked(purpose, picked) => {
+                let waiting = matches!(&self.dialog, Some(Dialog::Path(p)) if p.purpose == purpose);
+                if let (true, Some(path)) = (waiting, picked) {
+                    self.apply(Command::Chosen(purpose, path));
+                }
+            }
+            Outcome::Listed(file, Ok(names)) => self.grids.finish(file, names),
+            Outcome::Listed(file, Err(_)) => {
+                // The session says what is wrong with the file; here it has no names to offer.
+                self.grids.finish(file, Vec::new());
+            }
+            Outcome::Volume(path, Ok(())) => self.fill_with(&path),
+            Outcome::Volume(_, Err(problem)) => self.messages.fail(problem),
+            Outcome::Exported(path, Ok(())) => {
+                self.messages.say(Severity::Done, format!("Wrote {}.", path.display()));
+            }
+            Outcome::Exported(_, Err(problem)) => self.messages.fail(problem),
+        }
+    }
+
+    fn take_dropped_files(&mut self, ctx: &Context) {
+        let dropped = ctx.input(|i| i.raw.dropped_files.clone());
+        for file in dropped {
+            self.apply(Command::OpenAny(file.path().to_owned()));
+        }
+    }
+
+    /// Makes undo steps of settled states: a drag or a typed number is one step.
+    fn keep_history(&mut self, ctx: &Context) {
+        let typing = ctx.text_edit_focused();
+        let (now, down, pressed) = ctx.input(|i| (i.time, i.pointer.any_down(), i.pointer.any_pressed()));
+        let rested = now - self.edited_at >= SETTLED_SECONDS;
+        // A new gesture ends the edit before it, however short the pause was.
+        let settled = pressed || (!down && !typing && rested);
+        if self.document.observe(settled) && !down {
+            ctx.request_repaint_after(Duration::from_secs_f64(SETTLED_SECONDS));
+        }
+    }
+
+    /// Closing the window asks about unsaved changes first.
+    fn guard_window(&mut self, ctx: &Context) {
+        let asked = ctx.input(|i| i.viewport().close_requested());
+        if asked && !self.quitting && self.screenshot.is_none() && self.is_modified() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.apply(Command::Quit);
+        } else if self.quitting && !asked {
+            ctx.send_viewport_cmd(ViewportCommand::Close);
+        }
+        let mark = if self.is_modified() { "• " } else { "" };
+        let title = format!("{mark}{} – Majorant", self.name());
+        let shown = ctx.input(|i| i.viewport().title.clone());
+        if shown.as_deref() != Some(title.as_str()) {
+            ctx.send_viewport_cmd(ViewportCommand::Title(title));
+        }
+    }
+
+    /// The scene's name: its file's, or its title.
+    pub(super) fn name(&self) -> String {
+        let file = self.document.path().and_then(Path::file_name);
+        file.map_or_else(|| self.doc().title.clone(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Carries out a command.
+    pub(super) fn apply(&mut self, command: Command) {
+        match command {
+            Command::Edit(doc) => self.document.edit(*doc),
+            Command::Undo => self.document.undo(),
+            Command::Redo => self.document.redo(),
+            Command::Expose(stops) => {
+                let mut doc = self.doc().clone();
+                doc.view.exposure_ev = (doc.view.exposure_ev + stops).clamp(-16.0, 16.0);
+                self.document.edit(doc);
+            }
+            Command::Open(source) => self.guarded(Command::Open(source)),
+            Command::Quit => self.guarded(Command::Quit),
+            Command::Answer(answer) => self.answered(answer),
+            Command::OpenAny(path) => self.open_any(path),
+            Command::Ask(purpose) => self.ask(purpose),
+            Command::Chosen(purpose, path) => {
+                self.dialog = None;
+                self.chosen(purpose, path);
+            }
+            Command::CloseDialog => self.dialog = None,
+            Command::Save => self.save_scene(),
+            Command::TogglePause => {
+                let paused = self.state.status == Status::Paused;
+                self.session.set_paused(VIEW, !paused);
+            }
+            Command::Step => self.session.step(VIEW),
+            Command::Restart => self.session.restart(VIEW),
+            Command::Fit => self.image_view = ImageView::FIT,
+            Command::Zoom(zoom) => {
+                #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
+                let size = egui::vec2(self.doc().film.width as f32, self.doc().film.height as f32);
+                self.image_view = ImageView::at_zoom(zoom, size);
+            }
+            Command::ToggleSceneColumn => self.settings.scene_column ^= true,
+            Command::ToggleMethodColumn => self.settings.method_column ^= true,
+            Command::ToggleShortcuts => self.shortcuts_open ^= true,
+            Command::ToggleLogLobe => self.settings.log_lobe ^= true,
+            Command::Theme(theme) => self.settings.theme = theme,
+            Command::ListGrids(file) => self.list_grids(file),
+            Command::Dismiss(number) => self.messages.dismiss(number),
+        }
+    }
+
+    /// Does what would lose unsaved changes, or asks first.
+    fn guarded(&mut self, command: Command) {
+        if self.is_modified() {
+            self.dialog = Some(Dialog::Unsaved(Box::new(command)));
+        } else {
+            self.proceed(command);
+        }
+    }
+
+    fn proceed(&mut self, command: Command) {
+        match command {
+            Command::Open(source) => self.open(&source),
+            Command::Quit => self.quitting = true,
+            _ => {}
+        }
+    }
+
+    fn answered(&mut self, answer: Answer) {
+        let Some(Dialog::Unsaved(then)) = self.dialog.take() else { return };
+        match answer {
+            Answer::Cancel => {}
+            Answer::Discard => self.proceed(*then),
+            Answer::Save => {
+                self.save_scene();
+                // Without a file of its own the scene is not saved yet: the path prompt is open now.
+                if !self.is_modified() {
+                    self.proceed(*then);
+                }
+            }
+        }
+    }
+
+    /// Gives the session what changed, found by comparing documents.
+    pub(super) fn submit_if_needed(&mut self) {
+        let doc = self.document.doc();
+        let work = self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, doc));
+        match work {
+            Work::None => return,
+            Work::Limits => self.session.set_limits(VIEW, doc.render.spp, doc.render.seconds),
+            Work::Render => {
+                let job = Job { doc: Arc::new(self.document.resolved()), preview: true };
+                self.session.submit(VIEW, job);
+            }
+        }
+        self.submitted = Some(doc.clone());
+    }
+
+    /// Opens a scene; what was open stays if that fails.
+    pub(super) fn open(&mut self, source: &Source) {
+        match crate::model::Document::open(source) {
+            Ok(document) => {
+                if let Some(path) = document.path() {
+                    self.settings.remember(path);
+                }
+                self.document = document;
+                self.submitted = None;
+                self.grids.clear();
+                self.image_view = ImageView::FIT;
+            }
+            Err(problem) => self.messages.fail(problem),
+        }
+    }
+}

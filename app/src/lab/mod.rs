@@ -1,0 +1,211 @@
+//! The lab's window.
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `command.rs` | everything that the window can be asked to do |
+//! | `logic.rs` | reads what happened elsewhere, carries out commands; paints nothing |
+//! | `files.rs` | the commands that touch files |
+//! | `ui.rs` | lays the window out; changes nothing but the draft that it hands back |
+//! | `tasks.rs` | work that would make a frame wait |
+
+mod backend;
+mod columns;
+mod command;
+mod dialogs;
+mod files;
+mod help;
+mod logic;
+mod menu;
+mod messages;
+mod run;
+mod shortcuts;
+pub mod stats;
+mod status_bar;
+mod tasks;
+mod ui;
+
+pub use command::{Answer, Command, Purpose};
+pub use messages::{Message, Messages, Severity};
+pub use run::{LabError, LabOptions, run};
+pub use stats::Stats;
+pub use tasks::GridLists;
+
+use crate::model::{Document, Settings, Source};
+use crate::screenshot::Screenshot;
+use crate::theme;
+use crate::view::developer::{Bell, Developer};
+use crate::view::image_view::ImageView;
+use dialogs::Dialog;
+use egui::TextureHandle;
+use majorant_core::film::Snapshot;
+use majorant_core::io::Library;
+use majorant_core::scene::SceneDoc;
+use majorant_core::session::{Session, ViewId, ViewState};
+use std::sync::Arc;
+use std::time::Duration;
+use tasks::Tasks;
+
+/// The only view of the session that the window shows.
+const VIEW: ViewId = ViewId(0);
+
+/// The window: what is open, what renders, what is shown.
+pub struct LabApp {
+    document: Document,
+    settings: Settings,
+    // Dropped before the session, which it polls.
+    developer: Developer,
+    session: Arc<Session>,
+    state: ViewState,
+    stats: Stats,
+    /// What the session was last given, before file names were resolved.
+    submitted: Option<SceneDoc>,
+    texture: Option<TextureHandle>,
+    shown: Option<Arc<Snapshot>>,
+    image_view: ImageView,
+    pixel: Option<[usize; 2]>,
+    zoom: f32,
+    messages: Messages,
+    dialog: Option<Dialog>,
+    shortcuts_open: bool,
+    tasks: Tasks,
+    grids: GridLists,
+    screenshot: Option<Screenshot>,
+    /// Whether the desktop's file dialogs are used beside typed paths.
+    native_dialogs: bool,
+    /// When the document was last edited, in egui's time.
+    edited_at: f64,
+    quitting: bool,
+    ui_seconds: f32,
+}
+
+impl LabApp {
+    /// Opens the window's content inside an egui context.
+    ///
+    /// # Errors
+    /// When the operating system refuses a thread.
+    pub fn new(cc: &eframe::CreationContext<'_>, options: &LabOptions) -> std::io::Result<Self> {
+        let ctx = &cc.egui_ctx;
+        theme::install(ctx);
+        let stored = cc.storage.and_then(|s| eframe::get_value(s, Settings::KEY));
+        let mut settings: Settings = stored.unwrap_or_default();
+        if let Some(theme) = options.theme {
+            settings.theme = theme.into();
+        }
+        ctx.set_theme(settings.theme);
+
+        let bell = Bell::default();
+        let ring = bell.clone();
+        let session = Arc::new(Session::new(Library::default(), move || ring.ring())?);
+        let polled = Arc::clone(&session);
+        let repaint = ctx.clone();
+        let developer = Developer::new(bell, move || polled.state(VIEW), move || repaint.request_repaint())?;
+        let repaint = ctx.clone();
+        let mut app = Self {
+            document: Document::empty(),
+            state: session.state(VIEW),
+            stats: Stats::default(),
+            settings,
+            session,
+            developer,
+            submitted: None,
+            texture: None,
+            shown: None,
+            image_view: ImageView::FIT,
+            pixel: None,
+            zoom: 1.0,
+            messages: Messages::default(),
+            dialog: None,
+            shortcuts_open: false,
+            tasks: Tasks::new(move || repaint.request_repaint()),
+            grids: GridLists::default(),
+            screenshot: options.screenshot.clone().map(|path| Screenshot::new(path, options.after_seconds)),
+            native_dialogs: options.native_dialogs,
+            edited_at: 0.0,
+            quitting: false,
+            ui_seconds: 0.0,
+        };
+        app.open_first(options.open.as_ref());
+        Ok(app)
+    }
+
+    fn open_first(&mut self, wanted: Option<&Source>) {
+        let first = Source::first();
+        match wanted {
+            // A volume or a picture is put into the first scene.
+            Some(Source::File(path)) if path.extension().is_none_or(|e| e != "toml") => {
+                self.open(&first);
+                self.apply(Command::OpenAny(path.clone()));
+            }
+            Some(source) => self.open(source),
+            None => self.open(&first),
+        }
+        self.submit_if_needed();
+    }
+
+    /// The document as it is.
+    #[must_use]
+    pub fn doc(&self) -> &SceneDoc {
+        self.document.doc()
+    }
+
+    /// Whether there is something to save.
+    #[must_use]
+    pub fn is_modified(&self) -> bool {
+        self.document.is_modified()
+    }
+
+    /// What the session is doing.
+    #[must_use]
+    pub fn state(&self) -> &ViewState {
+        &self.state
+    }
+
+    /// What the window has to say.
+    #[must_use]
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    /// The picture that is shown, with its numbers.
+    #[must_use]
+    pub fn shown(&self) -> Option<&Snapshot> {
+        self.shown.as_deref()
+    }
+
+    /// Seconds that the last frame's `ui` and commands took, without rasterising.
+    #[must_use]
+    pub fn ui_seconds(&self) -> f32 {
+        self.ui_seconds
+    }
+}
+
+impl eframe::App for LabApp {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        // On a software rasteriser a frame costs tens of milliseconds: leave most of the machine to rendering.
+        let frame_seconds = frame.info().cpu_usage.unwrap_or(0.0);
+        self.developer.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
+        self.update(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let started = std::time::Instant::now();
+        let commands = self.window_ui(ui);
+        if !commands.is_empty() {
+            for command in commands {
+                if matches!(command, Command::Edit(_)) {
+                    self.edited_at = ui.input(|i| i.time);
+                }
+                self.apply(command);
+            }
+            self.submit_if_needed();
+            ui.ctx().set_theme(self.settings.theme);
+            // What is on the screen is from before the commands.
+            ui.ctx().request_repaint();
+        }
+        self.ui_seconds = started.elapsed().as_secs_f32();
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, Settings::KEY, &self.settings);
+    }
+}

@@ -1,0 +1,54 @@
+//! The line at the foot of the window: what the program does, the pixel under the pointer, the zoom.
+
+use super::LabApp;
+use super::stats::{count, duration};
+use crate::theme::Palette;
+use crate::view::readout;
+use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui, vec2};
+use majorant_core::session::Status;
+
+impl LabApp {
+    pub(super) fn status_ui(&self, ui: &mut Ui) {
+        let palette = Palette::get(ui);
+        ui.horizontal_centered(|ui| {
+            let (colour, text) = self.activity(palette);
+            let (dot, _) = ui.allocate_exact_size(vec2(10.0, 10.0), Sense::hover());
+            ui.painter().circle_filled(dot.center(), 4.0, colour);
+            ui.add(Label::new(RichText::new(text).color(palette.text)).selectable(false));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let film = self.doc().film.clone();
+                let view = format!("{} × {}   {:.0} %", film.width, film.height, 100.0 * self.zoom);
+                ui.add(Label::new(RichText::new(view).color(palette.weak)).selectable(false))
+                    .on_hover_text("Image size and zoom: F fits, 1 is 100 %, the wheel zooms");
+                ui.add_space(12.0);
+                let pixel = self.pixel.zip(self.shown.as_ref());
+                let text = match pixel.and_then(|(at, snapshot)| readout::describe(snapshot, at)) {
+                    Some(text) => RichText::new(text).monospace().color(palette.strong),
+                    None => RichText::new("Drag orbits, wheel zooms, ? lists all keys").color(palette.weak),
+                };
+                ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(
+                    "Linear radiance of the pixel under the pointer ± standard error of its mean",
+                );
+            });
+        });
+    }
+
+    /// What the program does, in a colour and a few words.
+    fn activity(&self, palette: &Palette) -> (Color32, String) {
+        let stats = &self.stats;
+        let rate = stats.spp_per_second.map_or_else(String::new, |r| format!("   {} spp/s", count(r)));
+        match &self.state.status {
+            Status::Empty => (palette.weak, "Nothing to render".into()),
+            Status::Building => (palette.accent, "Building the scene".into()),
+            Status::Rendering => {
+                let limit = self.doc().render.spp.map_or_else(String::new, |n| format!(" of {n}"));
+                (palette.accent, format!("Rendering   {}{limit} spp{rate}", stats.spp))
+            }
+            Status::Paused => (palette.warning, format!("Paused at {} spp", stats.spp)),
+            Status::Finished => {
+                (palette.good, format!("Finished   {} spp in {}", stats.spp, duration(stats.seconds)))
+            }
+            Status::Failed(_) => (palette.error, "Failed: the last picture is shown, dimmed".into()),
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! The command line end to end: the real program, its output and its exit codes.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn majorant(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_majorant"))
+        .args(arguments)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("WAYLAND_SOCKET")
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn succeeds(arguments: &[&str]) -> String {
+    let output = majorant(arguments);
+    assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+fn fails(arguments: &[&str], code: i32) -> String {
+    let output = majorant(arguments);
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stderr)
+}
+
+#[test]
+fn lists_estimators_and_scenes() {
+    let estimators = succeeds(&["estimators"]);
+    let ids: Vec<_> = estimators.lines().filter_map(|l| l.split_whitespace().next()).collect();
+    assert_eq!(ids, ["independent", "spectral-mis", "nee", "uni-nee-mis"]);
+    let scenes = succeeds(&["scenes"]);
+    for name in [
+        "first-light",
+        "plume-spectral",
+        "cloud-backlit",
+        "cloud-sidelit",
+        "homogeneous-absorption",
+        "furnace",
+    ] {
+        let line = scenes.lines().find(|l| l.starts_with(name)).unwrap();
+        assert!(line.len() > name.len() + 20, "{name} has no note: {line}");
+    }
+}
+
+#[test]
+fn every_embedded_scene_renders_headless() {
+    let folder = tempfile::tempdir().unwrap();
+    let png = folder.path().join("out.png");
+    for scene in succeeds(&["scenes"]).lines().filter_map(|l| l.split_whitespace().next()) {
+        let json = succeeds(&[
+            "render",
+            scene,
+            "-o",
+            png.to_str().unwrap(),
+            "--spp",
+            "1",
+            "--size",
+            "48x32",
+            "--json",
+        ]);
+        let json: Value = serde_json::from_str(json.lines().last().unwrap()).unwrap();
+        assert_eq!(json["paths"], 48 * 32, "{scene}");
+        assert!(png.metadata().unwrap().len() > 100, "{scene}");
+    }
+}
+
+#[test]
+fn render_writes_what_the_contract_says_and_repeats_bit_by_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let exr = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let render = |out: &str, threads: &str| {
+        let line = succeeds(&[
+            "render",
+            "furnace",
+            "-o",
+            out,
+            "--estimator",
+            "spectral-mis",
+            "--spp",
+            "3",
+            "--size",
+            "40x24",
+            "--seed",
+            "9",
+            "--threads",
+            threads,
+            "--max-depth",
+            "5",
+            "--set",
+            "medium.majorant.factor=2",
+            "estimator.mode=spectral",
+            "--json",
+        ]);
+        serde_json::from_str::<Value>(&line).unwrap()
+    };
+    let one = render(&exr("one.exr"), "1");
+    let two = render(&exr("two.exr"), "2");
+    for (key, value) in
+        [("width", 40), ("height", 24), ("spp", 3), ("seed", 9), ("threads", 1), ("non_finite", 0)]
+    {
+        assert_eq!(one[key], value, "{key}");
+    }
+    assert_eq!((&one["estimator"], &one["mode"]), (&"spectral-mis".into(), &"spectral".into()));
+    assert!(one["seconds"].as_f64().unwrap() > 0.0 && one["cpu_seconds"].as_f64().unwrap() > 0.0);
+    assert!(one["lookups"].as_u64().unwrap() > 0);
+    assert_eq!(one["mean"], two["mean"]);
+    assert_eq!(one["mean"].as_array().unwrap().len(), 3);
+
+    let info: Value = serde_json::from_str(&succeeds(&["info", &exr("one.exr"), "--json"])).unwrap();
+    assert_eq!(info["channels"], serde_json::json!(["B", "G", "R", "stderr.B", "stderr.G", "stderr.R"]));
+    assert_eq!(info["majorant"]["estimator"], "spectral-mis");
+    assert_eq!(info["majorant"]["spp"], 3);
+    // The scene in the metadata renders to the same picture.
+    let scene = folder.path().join("again.toml");
+    std::fs::write(&scene, info["majorant"]["scene"].as_str().unwrap()).unwrap();
+    let again =
+        succeeds(&["render", scene.to_str().unwrap(), "-o", &exr("again.exr"), "--spp", "3", "--json"]);
+    assert_eq!(serde_json::from_str::<Value>(&again).unwrap()["mean"], one["mean"]);
+}
+
+#[test]
+fn seconds_end_a_render() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("timed.exr");
+    let line = succeeds(&[
+        "render",
+        "furnace",
+        "-o",
+        out.to_str().unwrap(),
+        "--seconds",
+        "0.3",
+        "--size",
+        "32x32",
+        "--json",
+    ]);
+    let json: Value = serde_json::from_str(&line).unwrap();
+    assert!(json["seconds"].as_f64().unwrap() >= 0.3 && json["spp"].as_u64().unwrap() >= 1);
+}
+
+#[test]
+fn info_describes_volumes_and_scenes() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests");
+    let file = |name: &str| tests.join(name).to_str().unwrap().to_owned();
+    let json: Value =
+        serde_json::from_str(&succeeds(&["info", &file("volumes/usd_densityAndHeat.vdb"), "--json"]))
+            .unwrap();
+    let density = &json["grids"][0];
+    assert_eq!(density["name"], "density");
+    assert_eq!(density["active_voxels"], 6124);
+    assert_eq!(density["bbox"], serde_json::json!([1, 1, 31, 23, 23, 72]));
+    assert_eq!(json["grids"][1]["name"], "heat");
+    let refused: Value =
+        serde_json::from_str(&succeeds(&["info", &file("volumes/t_mask.vdb"), "--json"])).unwrap();
+    assert!(refused["grids"][0]["error"].as_str().unwrap().contains("t_mask.vdb"));
+    let npy: Value =
+        serde_json::from_str(&succeeds(&["info", &file("oracle/S2/density.npy"), "--json"])).unwrap();
+    assert_eq!(npy["grids"][0]["bbox"], serde_json::json!([0, 0, 0, 63, 63, 63]));
+    assert!(succeeds(&["info", &file("oracle/S2/scene.toml")]).contains("uni-nee-mis"));
+}
+
+#[test]
+fn without_a_display_the_window_names_the_headless_command() {
+    let message = fails(&[], 3);
+    assert_eq!(message.trim().lines().count(), 1, "{message}");
+    assert!(message.contains("majorant render"), "{message}");
+}
+
+#[test]
+fn mistakes_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let out = path("x.exr");
+    assert!(fails(&["render", "no-such-scene", "-o", &out], 1).contains("first-light"));
+    assert!(fails(&["render", "furnace", "-o", &path("x.jpg")], 1).contains(".exr"));
+    assert!(fails(&["render", "furnace", "-o", &out, "--estimator", "magic"], 1).contains("uni-nee-mis"));
+    assert!(
+        fails(&["render", "furnace", "-o", &out, "--set", "medium.majorant.fctor=2"], 1).contains("fctor")
+    );
+    assert!(fails(&["render", "furnace", "-o", &out, "--size", "0x0"], 1).contains("film"));
+    assert!(fails(&["render", "furnace", "-o", &out, "--size", "100000x100000"], 1).contains("film"));
+    assert!(
+        fails(&["render", "furnace", "-o", &out, "--set", "medium.albedo=1.5"], 1).contains("medium.albedo")
+    );
+    assert!(
+        fails(&["render", "furnace", "-o", "/nowhere/x.exr", "--spp", "1", "--size", "8x8"], 1)
+            .contains("/nowhere")
+    );
+    fails(&["render", "furnace"], 2);
+    fails(&["render", "furnace", "-o", &out, "--size", "banana"], 2);
+    std::fs::write(path("bad.vdb"), b"not a volume").unwrap();
+    assert!(fails(&["info", &path("bad.vdb")], 1).contains("bad.vdb"));
+}

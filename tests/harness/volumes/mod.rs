@@ -1,0 +1,34 @@
+//! Volume files for the tests, and what is true of them.
+
+use std::path::{Path, PathBuf};
+
+pub mod mutate;
+pub mod truth;
+
+/// The folder of test volumes, if this machine has one.
+pub fn volumes() -> Option<PathBuf> {
+    let folder = std::env::var_os("MAJORANT_VOLUMES").map(PathBuf::from);
+    if folder.is_none() {
+        println!("skipped: MAJORANT_VOLUMES is not set");
+    }
+    folder
+}
+
+/// The volumes that are part of the project.
+pub fn fixtures() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("volumes")
+}
+
+/// Path of a file of the ground truth: generated files are in a folder of their own.
+pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
+    [folder.join(name), folder.join("corpus").join(name)].into_iter().find(|path| path.is_file())
+}
+
+/// Files of a folder, sorted.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.is_file());
+    paths.sort();
+    paths
+}

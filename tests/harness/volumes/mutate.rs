@@ -1,0 +1,53 @@
+//! Damaged copies of files, the same ones in every run.
+
+/// A small generator of random numbers (SplitMix64, Steele et al. 2014).
+pub struct SplitMix64(pub u64);
+
+impl SplitMix64 {
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+}
+
+/// `count` prefixes of the file, as many from its first 4 KiB (headers) as from all of it.
+pub fn truncations(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
+    let mut random = SplitMix64(seed);
+    (0..count).map(move |i| {
+        let range = if i % 2 == 0 { bytes.len().min(4096) } else { bytes.len() };
+        bytes[..random.below(range)].to_vec()
+    })
+}
+
+/// `count` copies with one byte changed, as many in the first 4 KiB as in all of the file.
+pub fn byte_flips(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
+    let mut random = SplitMix64(seed);
+    (0..count).map(move |i| {
+        let range = if i % 2 == 0 { bytes.len().min(4096) } else { bytes.len() };
+        let mut copy = bytes.to_vec();
+        copy[random.below(range)] ^= 1 + random.below(255) as u8;
+        copy
+    })
+}
+
+/// `count` copies with one byte changed near the head of a Blosc chunk: its sizes, flags, block
+/// table and split sizes. This is where a decoder loses its way; chunks are found by their look.
+pub fn blosc_flips(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
+    let heads: Vec<usize> = (0..bytes.len().saturating_sub(32))
+        .filter(|&i| matches!(bytes[i..i + 4], [2, 1, _, 2 | 4 | 6 | 12]))
+        .collect();
+    let mut random = SplitMix64(seed);
+    (0..count.min(count * heads.len())).map(move |_| {
+        let mut copy = bytes.to_vec();
+        copy[heads[random.below(heads.len())] + random.below(32)] ^= 1 + random.below(255) as u8;
+        copy
+    })
+}

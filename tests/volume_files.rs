@@ -1,0 +1,155 @@
+//! The volumes that are part of the project: read exactly, refused with a reason, or repaired.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "a test may panic, and prints its tables"
+)]
+
+use std::path::Path;
+
+use majorant_core::io::volume::{
+    Limits, VolumeError, info, info_bytes, read_vdb, read_vdb_bytes, read_volume, validate_density,
+};
+use majorant_tests::volumes::{self, truth};
+
+#[test]
+fn fixtures_are_exact_or_refused() {
+    let folder = volumes::fixtures();
+    let verdicts = truth::compare(&folder, &folder.join("truth-small.json"));
+    truth::print(&verdicts);
+    let wrong: Vec<_> = verdicts.iter().filter(|v| v.is_wrong()).collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    let refused: Vec<_> = verdicts.iter().filter(|v| v.refused.is_some()).collect();
+    let files: Vec<_> = refused.iter().map(|v| v.file.as_str()).collect();
+    assert_eq!(files, ["t_mask.vdb", "tree433.vdb"], "{refused:#?}");
+    assert_eq!(verdicts.len(), 15);
+}
+
+#[test]
+fn hostile_chunks_are_refused_before_they_are_unpacked() {
+    let files = volumes::files(&volumes::fixtures().join("hostile"));
+    let reasons = [
+        ("A_oobread.vdb", "Blosc chunk: it unpacks to 1048576 bytes"),
+        ("B_oobwrite.vdb", "Blosc chunk: it unpacks to 27 bytes"),
+        ("C_short.vdb", "of a file of 17697 bytes"),
+        ("D_2GB.vdb", "Blosc chunk: it unpacks to"),
+    ];
+    assert_eq!(files.len(), reasons.len());
+    for (path, (name, reason)) in files.iter().zip(reasons) {
+        let error = read_vdb(path, None, &Limits::default()).unwrap_err().to_string();
+        assert!(path.ends_with(name) && error.contains(reason), "{error}");
+        assert!(error.contains("byte "), "{error}");
+        assert!(info(path).map_or(true, |grids| grids.iter().all(|grid| grid.error.is_some())));
+    }
+}
+
+#[test]
+fn missing_magic_number_is_an_error() {
+    let mut bytes = std::fs::read(volumes::fixtures().join("gaffer_sphere.vdb")).unwrap();
+    bytes[..8].fill(0);
+    let error = info_bytes(&bytes, "nomagic.vdb", &Limits::default()).unwrap_err().to_string();
+    assert!(error.contains("not an OpenVDB file"), "{error}");
+}
+
+#[test]
+fn nan_and_infinite_voxels_are_repaired_and_counted() {
+    let path = volumes::fixtures().join("nan_inf.vdb");
+    let grid = read_volume(&path, Some("density"), &Limits::default()).unwrap();
+    assert_eq!((grid.size, grid.repaired, grid.negative), ([4, 1, 1], 2, 1));
+    assert!(grid.values.iter().all(|value| value.is_finite()));
+    assert_eq!(info(&path).unwrap()[0].non_finite, Some(2));
+    let error = validate_density(&grid, &path).unwrap_err().to_string();
+    assert!(error.contains("-1") && error.contains("cannot be negative"), "{error}");
+}
+
+#[test]
+fn level_set_is_read_but_is_no_density() {
+    let path = volumes::fixtures().join("tiny_level_set.vdb");
+    let grid = read_vdb(&path, None, &Limits::default()).unwrap();
+    assert!(grid.level_set && grid.negative > 0);
+    let error = validate_density(&grid, &path).unwrap_err();
+    assert!(matches!(error, VolumeError::NegativeDensity { level_set: true, .. }));
+    assert!(error.to_string().contains("convert it to a fog volume"), "{error}");
+}
+
+#[test]
+fn grids_are_chosen_by_name() {
+    let path = volumes::fixtures().join("usd_densityAndHeat.vdb");
+    let limits = Limits::default();
+    assert_eq!(read_vdb(&path, None, &limits).unwrap().name, "density");
+    assert_eq!(read_vdb(&path, Some("heat"), &limits).unwrap().name, "heat");
+    let error = read_vdb(&path, Some("smoke"), &limits).unwrap_err().to_string();
+    assert!(error.contains("\"smoke\""), "{error}");
+    assert!(error.contains("\"density\", \"heat\""), "{error}");
+    // No grid of the default name: the first float grid.
+    let torus = volumes::fixtures().join("arnold_torus01.vdb");
+    assert_eq!(read_vdb(&torus, None, &limits).unwrap().name, "voxel_fog_density");
+    let vectors = volumes::fixtures().join("tiny_vector.vdb");
+    assert!(matches!(read_vdb(&vectors, None, &limits), Err(VolumeError::NoSuchGrid { .. })));
+    assert_eq!(read_vdb(&vectors, Some("velocity"), &limits).unwrap().channels, 3);
+    let empty = volumes::fixtures().join("nogrids.vdb");
+    assert!(info(&empty).unwrap().is_empty());
+    assert!(matches!(read_vdb(&empty, None, &limits), Err(VolumeError::NoSuchGrid { .. })));
+}
+
+#[test]
+fn every_voxel_is_in_its_place() {
+    // The value of the ball in `make_tiny.py` is a ramp over its array, x slowest.
+    let grid = read_vdb(&volumes::fixtures().join("tiny_affine.vdb"), None, &Limits::default());
+    let grid = grid.unwrap();
+    assert_eq!((grid.size, grid.min_index), ([11; 3], [3, 4, 5]));
+    for (i, &value) in grid.values.iter().enumerate() {
+        let (x, y, z) = (i % 11, i / 11 % 11, i / 121);
+        let squared: usize = [x, y, z].map(|n| n.abs_diff(5).pow(2)).iter().sum();
+        let ramp = ((x * 11 + y) * 11 + z) as f32 / 1331.0 + 0.125;
+        assert_eq!(value, if squared <= 25 { ramp } else { 0.0 }, "voxel {x} {y} {z}");
+    }
+}
+
+#[test]
+fn limits_are_kept_and_named() {
+    let path = volumes::fixtures().join("tiny_root_tile.vdb");
+    let bytes = std::fs::read(&path).unwrap();
+    let read = |limits: Limits| read_vdb_bytes(&bytes, "bomb.vdb", None, &limits).unwrap_err();
+    let error = read(Limits::default());
+    assert!(matches!(error, VolumeError::TooLarge { .. }), "{error}");
+    assert!(error.to_string().contains("8192 × 4116 × 4116"), "{error}");
+    let error = read(Limits { max_tree_bytes: 1000, ..Limits::default() });
+    assert!(error.to_string().contains("unpacked tree"), "{error}");
+    let limits = Limits { max_file_bytes: 1000, ..Limits::default() };
+    let error = read_vdb(&path, None, &limits).unwrap_err();
+    assert!(error.to_string().contains("1000 bytes"), "{error}");
+    let missing = read_volume(Path::new("missing.vdb"), None, &limits).unwrap_err().to_string();
+    assert!(missing.starts_with("missing.vdb: cannot be read"), "{missing}");
+}
+
+#[test]
+fn info_has_the_promised_keys() {
+    let grids = info(&volumes::fixtures().join("gaffer_sphere.vdb")).unwrap();
+    let json = serde_json::to_value(&grids[0]).unwrap();
+    let keys: Vec<_> = json.as_object().unwrap().keys().map(String::as_str).collect();
+    let mut expected =
+        ["name", "type", "class", "half", "map", "active_voxels", "min", "max", "mean", "bbox", "background"];
+    expected.sort_unstable();
+    assert_eq!(keys, expected);
+    let refused = info(&volumes::fixtures().join("t_mask.vdb")).unwrap();
+    let json = serde_json::to_value(&refused[0]).unwrap();
+    assert!(json["error"].as_str().unwrap().contains("mask grid"));
+    assert!(json.get("active_voxels").is_none() && json["type"] == "Tree_mask_5_4_3");
+}
+
+#[test]
+fn a_refused_grid_leaves_the_others_readable() {
+    let mut bytes = std::fs::read(volumes::fixtures().join("usd_densityAndHeat.vdb")).unwrap();
+    let kind = b"Tree_float_5_4_3";
+    let at = bytes.windows(kind.len()).position(|window| window == kind).unwrap();
+    bytes[at..at + kind.len()].copy_from_slice(b"Tree_vec3i_5_4_3");
+    let limits = Limits::default();
+    let grids = info_bytes(&bytes, "two.vdb", &limits).unwrap();
+    let refused = grids[0].error.as_deref().unwrap();
+    assert!(refused.contains("two.vdb, grid \"density\"") && refused.contains("vec3i"), "{refused}");
+    assert!(grids[1].error.is_none());
+    assert_eq!(read_vdb_bytes(&bytes, "two.vdb", Some("heat"), &limits).unwrap().name, "heat");
+    assert!(read_vdb_bytes(&bytes, "two.vdb", None, &limits).is_err(), "density is not replaced");
+}
