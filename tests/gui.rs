@@ -237,7 +237,7 @@ fn lights_are_added_duplicated_and_removed() {
 #[test]
 fn rendering_pauses_steps_and_starts_over() {
     let (mut lab, _directory) = lab();
-    open(&mut lab, "Render");
+    open(&mut lab, "Limits, threads, seed");
     click(&mut lab, Role::CheckBox, "Stop at on");
     assert_eq!(doc(&lab).render.spp, None);
     wait(&mut lab, "rendering", |app| app.state().snapshot.as_ref().is_some_and(|s| s.spp > 4));
@@ -262,6 +262,7 @@ fn raising_the_limit_keeps_the_samples() {
     let (mut lab, _directory) = lab();
     wait(&mut lab, "finishing", |app| app.state().status == Status::Finished);
     let generation = lab.state().state().generation;
+    open(&mut lab, "Limits, threads, seed");
     lab.get_by_role_and_label(Role::SpinButton, "Stop at").set_value_accesskit(9.0);
     lab.run_steps(3);
     assert_eq!(doc(&lab).render.spp, Some(9));

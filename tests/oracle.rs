@@ -38,7 +38,7 @@ fn s1f_furnace() {
 /// A small side light: unidirectional estimators meet it rarely.
 #[test]
 fn s2_cloud_with_a_side_light() {
-    compare("S2", 4, |id| if id == "nee" || id == "uni-nee-mis" { 4 } else { 1 });
+    compare("S2", 8, |id| if id == "nee" || id == "uni-nee-mis" { 2 } else { 1 });
 }
 
 /// A strongly forward phase function: NEE's directions rarely fit it.

@@ -109,6 +109,12 @@ pub fn install(ctx: &Context) {
     }
 }
 
+/// The frame of a question or a list over the window.
+#[must_use]
+pub fn dialog_frame(style: &Style) -> egui::Frame {
+    egui::Frame::window(style).inner_margin(Margin::same(20))
+}
+
 /// Text falls back to the monospace font, which has the arrows and shapes that the text font lacks.
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();

@@ -23,3 +23,65 @@ pub mod session;
 pub mod spectrum;
 pub mod surface;
 pub mod transport;
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+
+    /// Rooms from the lowest to the highest; those of one line may use each other.
+    const LAYERS: &[&[&str]] = &[
+        &["math"],
+        &["spectrum"],
+        &["phase", "surface", "film"],
+        &["medium", "light"],
+        &["scene"],
+        &["transport"],
+        &["estimator"],
+        &["io"],
+        &["session"],
+    ];
+
+    fn layer(room: &str) -> usize {
+        LAYERS.iter().position(|l| l.contains(&room)).unwrap_or_else(|| panic!("no layer for `{room}`"))
+    }
+
+    fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                sources(&path, found);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                found.push(path);
+            }
+        }
+    }
+
+    #[test]
+    fn imports_point_one_way() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+        let mut files = Vec::new();
+        sources(&root, &mut files);
+        assert!(files.len() > 50);
+        for file in files {
+            let relative = file.strip_prefix(&root).unwrap();
+            let room = relative.iter().next().unwrap().to_str().unwrap();
+            if room == "lib.rs" {
+                continue;
+            }
+            // Tests and comments may look anywhere.
+            let text = std::fs::read_to_string(&file).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
+                for used in line.split("crate::").skip(1) {
+                    let name: String =
+                        used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                    assert!(
+                        layer(&name) <= layer(room),
+                        "{}: {room} must not use {name}: {line}",
+                        relative.display()
+                    );
+                }
+            }
+        }
+    }
+}

@@ -6,7 +6,7 @@ use crate::model::Source;
 use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
-pub(super) struct Arguments {
+pub(super) struct LabArguments {
     /// A scene or volume to open, or the name of an embedded scene.
     file: Option<String>,
     /// Write what the window shows to this PNG file, then exit.
@@ -36,7 +36,7 @@ fn parse_window(text: &str) -> Result<[f32; 2], String> {
         .ok_or_else(|| format!("`{text}` is not a window size: write WIDTHxHEIGHT, e.g. 1280x720"))
 }
 
-pub(super) fn run(arguments: Arguments) -> Result<(), Failure> {
+pub(super) fn run(arguments: LabArguments) -> Result<(), Failure> {
     let options = LabOptions {
         open: arguments.file.as_deref().map(Source::from_argument),
         screenshot: arguments.screenshot,

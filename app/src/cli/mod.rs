@@ -34,7 +34,7 @@ struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
     #[command(flatten)]
-    lab: lab::Arguments,
+    lab: lab::LabArguments,
 }
 
 #[derive(Subcommand, Debug)]

@@ -25,7 +25,6 @@ impl Progress {
         Self { bar, spp, seconds }
     }
 
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of 1000")]
     pub fn show(&self, snapshot: &Snapshot) {
         let by_samples = self.spp.map_or(0.0, |spp| f64::from(snapshot.spp) / f64::from(spp));
         let by_time = self.seconds.map_or(0.0, |s| snapshot.seconds / f64::from(s));

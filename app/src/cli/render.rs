@@ -89,7 +89,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if doc.render.spp.is_none() && doc.render.seconds.is_none() {
         return Err(Failure::Message("the render would never end: give --spp or --seconds".into()));
     }
-    if let Some(problem) = majorant_core::scene::validate(&doc).first() {
+    if let Some(problem) = majorant_core::estimator::validate(&doc).first() {
         return Err(Failure::Message(problem.to_string()));
     }
 

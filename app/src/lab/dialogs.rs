@@ -1,7 +1,7 @@
 //! Questions that the window asks: for a path, and about unsaved changes.
 
 use super::{Answer, Command, Purpose};
-use crate::theme::Palette;
+use crate::theme::{Palette, dialog_frame};
 use egui::{Button, Context, Id, Key, Modal, RichText, TextEdit, Ui, vec2};
 use std::path::PathBuf;
 
@@ -52,14 +52,15 @@ impl PathPrompt {
 /// Shows the open question, if there is one.
 pub(super) fn dialog_ui(ctx: &Context, dialog: &mut Option<Dialog>, name: &str, commands: &mut Vec<Command>) {
     let Some(open) = dialog else { return };
-    let response = Modal::new(Id::unique("dialog")).show(ctx, |ui| {
-        ui.set_width(480.0);
-        ui.spacing_mut().item_spacing.y = 10.0;
-        match open {
-            Dialog::Path(prompt) => path_ui(ui, prompt, commands),
-            Dialog::Unsaved(_) => unsaved_ui(ui, name, commands),
-        }
-    });
+    let response =
+        Modal::new(Id::unique("dialog")).frame(dialog_frame(&ctx.global_style())).show(ctx, |ui| {
+            ui.set_width(480.0);
+            ui.spacing_mut().item_spacing.y = 10.0;
+            match open {
+                Dialog::Path(prompt) => path_ui(ui, prompt, commands),
+                Dialog::Unsaved(_) => unsaved_ui(ui, name, commands),
+            }
+        });
     if response.should_close() {
         commands.push(Command::CloseDialog);
     }

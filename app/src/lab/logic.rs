@@ -100,8 +100,9 @@ impl LabApp {
         }
         let mark = if self.is_modified() { "• " } else { "" };
         let title = format!("{mark}{} – Majorant", self.name());
-        let shown = ctx.input(|i| i.viewport().title.clone());
-        if shown.as_deref() != Some(title.as_str()) {
+        // Not every platform tells the title, and every command asks for another frame.
+        if self.window_title != title {
+            self.window_title.clone_from(&title);
             ctx.send_viewport_cmd(ViewportCommand::Title(title));
         }
     }
@@ -142,7 +143,6 @@ impl LabApp {
             Command::Restart => self.session.restart(VIEW),
             Command::Fit => self.image_view = ImageView::FIT,
             Command::Zoom(zoom) => {
-                #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
                 let size = egui::vec2(self.doc().film.width as f32, self.doc().film.height as f32);
                 self.image_view = ImageView::at_zoom(zoom, size);
             }

@@ -2,7 +2,7 @@
 
 use super::Command;
 use crate::theme::Palette;
-use egui::{Button, Frame, Label, Margin, RichText, Ui};
+use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,16 +63,10 @@ impl Messages {
     }
 }
 
-/// Shows one line with its dismiss button; `number` is absent for a line that cannot be dismissed.
-pub fn line_ui(
-    ui: &mut Ui,
-    severity: Severity,
-    text: &str,
-    number: Option<u64>,
-    commands: &mut Vec<Command>,
-) {
+/// Shows one line with its dismiss button.
+pub(super) fn line_ui(ui: &mut Ui, line: &Message, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
-    let colour = if severity == Severity::Error { palette.error } else { palette.good };
+    let colour = if line.severity == Severity::Error { palette.error } else { palette.good };
     let frame = Frame::NONE.fill(palette.bar.lerp_to_gamma(colour, 0.14)).inner_margin(Margin {
         left: 12,
         right: 8,
@@ -85,15 +79,13 @@ pub fn line_ui(
                 let room = ui.available_width() - 84.0;
                 ui.scope(|ui| {
                     ui.set_max_width(room);
-                    ui.add(Label::new(RichText::new(text).color(colour)).wrap());
+                    ui.add(Label::new(RichText::new(&line.text).color(colour)).wrap());
                 });
-                if let Some(number) = number {
-                    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                        if ui.add(Button::new("Dismiss").small()).clicked() {
-                            commands.push(Command::Dismiss(number));
-                        }
-                    });
-                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    if ui.add(Button::new("Dismiss").small()).clicked() {
+                        commands.push(Command::Dismiss(line.number));
+                    }
+                });
             });
         })
         .response;

@@ -75,6 +75,7 @@ pub struct LabApp {
     /// When the document was last edited, in egui's time.
     edited_at: f64,
     quitting: bool,
+    window_title: String,
     ui_seconds: f32,
 }
 
@@ -122,6 +123,7 @@ impl LabApp {
             native_dialogs: options.native_dialogs,
             edited_at: 0.0,
             quitting: false,
+            window_title: String::new(),
             ui_seconds: 0.0,
         };
         app.open_first(options.open.as_ref());

@@ -2,7 +2,7 @@
 
 use super::Command;
 use super::command::Purpose;
-use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
 /// A key and what it does.
 pub struct Shortcut {
@@ -20,8 +20,7 @@ const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
-/// Every key. Where one is another plus Shift, the one with Shift comes first, for egui ignores extra
-/// Shift keys.
+/// Every key.
 pub const KEYS: &[Shortcut] = &[
     Shortcut {
         keys: key(CTRL, Key::N),
@@ -114,7 +113,15 @@ pub const GESTURES: &[(&str, &str)] = &[
 pub fn keys_of(ctx: &Context, command: &Command) -> String {
     KEYS.iter()
         .find(|shortcut| (shortcut.command)() == *command)
-        .map_or_else(String::new, |shortcut| ctx.format_shortcut(&shortcut.keys))
+        .map_or_else(String::new, |shortcut| name(ctx, &shortcut.keys))
+}
+
+/// The keys of a shortcut as people name them.
+#[must_use]
+pub fn name(ctx: &Context, keys: &KeyboardShortcut) -> String {
+    // egui spells out the names of keys that are signs.
+    let text = ctx.format_shortcut(keys);
+    text.replace("Period", ".").replace("OpenBracket", "[").replace("CloseBracket", "]")
 }
 
 /// The commands of the keys that were pressed since the last frame.
@@ -122,21 +129,27 @@ pub fn keys_of(ctx: &Context, command: &Command) -> String {
 pub fn pressed(ctx: &Context) -> Vec<Command> {
     let typing = ctx.text_edit_focused();
     ctx.input_mut(|input| {
-        let question = input.events.iter().any(|e| matches!(e, egui::Event::Text(t) if t == "?"));
-        let mut commands: Vec<Command> = KEYS
-            .iter()
-            .filter(|s| !typing || s.keys.modifiers.command)
-            // Fields have their own undo while they are edited.
-            .filter(|s| !typing || !matches!(s.keys.logical_key, Key::Z | Key::Y))
-            .filter(|s| {
-                let exact = input.modifiers.matches_exact(s.keys.modifiers);
-                exact && input.consume_key(s.keys.modifiers, s.keys.logical_key)
-            })
-            .map(|s| (s.command)())
-            .collect();
-        if question && !typing {
-            commands.push(Command::ToggleShortcuts);
-        }
+        let mut commands = Vec::new();
+        input.events.retain(|event| {
+            let command = command_of(event, typing);
+            let keep = command.is_none();
+            commands.extend(command);
+            keep
+        });
         commands
     })
+}
+
+fn command_of(event: &Event, typing: bool) -> Option<Command> {
+    match event {
+        // The event's own modifiers count: the keys may be up again by the end of the frame.
+        Event::Key { key, pressed: true, modifiers, .. } => KEYS
+            .iter()
+            .find(|s| s.keys.logical_key == *key && modifiers.matches_exact(s.keys.modifiers))
+            // Fields take the letters, and have an undo of their own while they are edited.
+            .filter(|s| !typing || (s.keys.modifiers.command && !matches!(key, Key::Z | Key::Y)))
+            .map(|s| (s.command)()),
+        Event::Text(text) if text == "?" && !typing => Some(Command::ToggleShortcuts),
+        _ => None,
+    }
 }

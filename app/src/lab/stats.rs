@@ -27,7 +27,6 @@ pub struct Stats {
 impl Stats {
     /// Reads them off a state and the limits that hold for it.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
     pub fn new(state: &ViewState, limits: &RenderDoc) -> Self {
         // A picture of an older submission says nothing about this one.
         let Some(snapshot) = state.snapshot.as_ref().filter(|s| s.generation == state.generation) else {
@@ -51,7 +50,6 @@ impl Stats {
             spp_per_second,
             lookups_per_second: per(lookups, seconds),
             lookups_per_path: per(lookups, snapshot.tally.paths as f64),
-            #[allow(clippy::cast_possible_truncation, reason = "between 0 and 1")]
             progress: progress.map(|p| p.clamp(0.0, 1.0) as f32),
             eta_seconds: eta.map(|eta| eta.max(0.0)),
             non_finite: snapshot.tally.non_finite,
@@ -78,7 +76,6 @@ pub fn count(value: f64) -> String {
 
 /// `12.3 s`, `4 min 05 s` or `2 h 07 min`.
 #[must_use]
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative, below 2^53")]
 pub fn duration(seconds: f64) -> String {
     let whole = seconds.max(0.0).round() as u64;
     match whole {

@@ -48,7 +48,7 @@ impl LabApp {
             Status::Finished => {
                 (palette.good, format!("Finished   {} spp in {}", stats.spp, duration(stats.seconds)))
             }
-            Status::Failed(_) => (palette.error, "Failed: the last picture is shown, dimmed".into()),
+            Status::Failed(_) => (palette.error, "The scene cannot be rendered".into()),
         }
     }
 }

@@ -3,14 +3,14 @@
 use super::dialogs::dialog_ui;
 use super::files::FileKind;
 use super::help::help_ui;
-use super::messages::{Severity, line_ui};
+use super::messages::line_ui;
 use super::{Command, LabApp, shortcuts};
 use crate::panels::Column;
 use crate::theme::Palette;
 use crate::view::canvas::{Shown, canvas_ui};
 use egui::{
-    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, LayerId, Margin, Order, Panel, Rect, Stroke,
-    StrokeKind, Ui, vec2,
+    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, Label, LayerId, Margin, Order, Panel, Rect,
+    RichText, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2,
 };
 use majorant_core::scene::SceneDoc;
 use majorant_core::session::Status;
@@ -32,12 +32,12 @@ impl LabApp {
         let column = Frame::NONE.fill(palette.panel);
         if self.settings.scene_column {
             let panel =
-                Panel::left("scene-column").frame(column).default_size(316.0).size_range(264.0..=480.0);
+                Panel::left("scene-column").frame(column).default_size(316.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Scene, &mut draft, &mut commands));
         }
         if self.settings.method_column {
             let panel =
-                Panel::right("method-column").frame(column).default_size(292.0).size_range(264.0..=480.0);
+                Panel::right("method-column").frame(column).default_size(292.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Method, &mut draft, &mut commands));
         }
         CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, &mut draft));
@@ -62,7 +62,7 @@ impl LabApp {
         Panel::bottom("messages").frame(Frame::NONE).resizable(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             for line in self.messages.lines() {
-                line_ui(ui, line.severity, &line.text, Some(line.number), commands);
+                line_ui(ui, line, commands);
             }
         });
     }
@@ -72,12 +72,13 @@ impl LabApp {
             Status::Failed(text) => Some(text.clone()),
             _ => None,
         };
+        let display = self.document.doc().view.clone();
         let shown = Shown {
             texture: self.texture.as_ref(),
             snapshot: self.shown.as_deref(),
             dimmed: failure.is_some(),
+            display: &display,
         };
-        #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
         let film = vec2(draft.film.width as f32, draft.film.height as f32);
         let outcome = canvas_ui(ui, &shown, self.image_view, &draft.camera, film);
         (self.image_view, self.pixel, self.zoom) = (outcome.view, outcome.pixel, outcome.zoom);
@@ -85,27 +86,29 @@ impl LabApp {
             draft.camera = camera;
         }
         if let Some(text) = failure {
-            failure_ui(ui, outcome.rect, &text);
+            failure_ui(ui, outcome.rect, &text, self.shown.is_some());
         }
     }
 }
 
 /// Why nothing new is shown, over the last picture.
-fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str) {
-    let width = (canvas.width() - 48.0).clamp(120.0, 620.0);
-    let area =
-        Rect::from_min_size(canvas.min + vec2(0.5 * (canvas.width() - width), 20.0), vec2(width, 10.0));
-    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(area));
-    child.spacing_mut().item_spacing.y = 1.0;
-    let mut none = Vec::new();
-    line_ui(&mut child, Severity::Error, text, None, &mut none);
-    line_ui(
-        &mut child,
-        Severity::Error,
-        "The last picture is shown, dimmed. Your edits are kept: correct them, or undo with Ctrl + Z.",
-        None,
-        &mut none,
-    );
+fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
+    let palette = Palette::get(ui);
+    let width = (canvas.width() - 64.0).clamp(120.0, 560.0);
+    let left = canvas.left() + 0.5 * (canvas.width() - width);
+    let area = Rect::from_min_size(pos2(left, canvas.top() + 24.0), vec2(width, 10.0));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(area));
+    let frame =
+        Frame::popup(child.style()).inner_margin(Margin::same(14)).stroke(Stroke::new(1.0, palette.error));
+    frame.show(&mut child, |ui| {
+        ui.set_width(width - 28.0);
+        ui.label(RichText::new("This scene cannot be rendered").color(palette.error));
+        ui.add(Label::new(RichText::new(text).color(palette.strong)).wrap());
+        let kept = "Your edits are kept: correct them, or take them back with Ctrl + Z.";
+        let kept =
+            if pictured { format!("The last picture is shown, dimmed. {kept}") } else { kept.to_owned() };
+        ui.add(Label::new(RichText::new(kept).small().color(palette.weak)).wrap());
+    });
 }
 
 /// While files hover over the window: what would become of them.

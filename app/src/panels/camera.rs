@@ -1,7 +1,7 @@
 //! Camera and image size.
 
 use super::{Column, Cx, Panel};
-use crate::widgets::{Value, hint, row, vector};
+use crate::widgets::{Value, Vector, hint, row};
 use egui::{DragValue, Ui, vec2};
 use majorant_core::scene::CameraDoc;
 
@@ -27,11 +27,21 @@ impl Panel for Camera {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let camera = &mut cx.draft.camera;
-        vector(ui, "Stands at", "Camera origin", &mut camera.origin, 0.01, "", "Where the camera is");
-        vector(ui, "Looks at", "Camera target", &mut camera.target, 0.01, "", "What orbiting turns about");
-        vector(ui, "Up", "Camera up", &mut camera.up, 0.01, "", "Which way is up");
-        Value::new("Field of view", &mut camera.fov_deg, CameraDoc::default().fov_deg)
-            .opened(cx.opened.camera.fov_deg)
+        let (opened, default) = (&cx.opened.camera, CameraDoc::default());
+        Vector::new("Stands at", "Camera origin", &mut camera.origin, default.origin)
+            .opened(opened.origin)
+            .tip("Where the camera is")
+            .show(ui);
+        Vector::new("Looks at", "Camera target", &mut camera.target, default.target)
+            .opened(opened.target)
+            .tip("What orbiting turns about")
+            .show(ui);
+        Vector::new("Up", "Camera up", &mut camera.up, default.up)
+            .opened(opened.up)
+            .tip("Which way is up")
+            .show(ui);
+        Value::new("Field of view", &mut camera.fov_deg, default.fov_deg)
+            .opened(opened.fov_deg)
             .unit("°")
             .range(1.0..=150.0)
             .speed(0.2)

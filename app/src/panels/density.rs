@@ -48,7 +48,6 @@ impl Panel for Density {
         if let Some(info) = cx.state.scene.as_ref()
             && let Some([x, y, z]) = info.grid_size
         {
-            #[allow(clippy::cast_precision_loss, reason = "shown with one decimal")]
             let megabytes = info.memory_bytes as f64 / 1e6;
             hint(
                 ui,

@@ -92,7 +92,7 @@ pub(super) fn card_ui(
         let state = CollapsingState::load_with_default_open(ui.ctx(), id, true);
         state
             .show_header(ui, |ui| {
-                ui.label(RichText::new(format!("{number}  {title}")).strong());
+                ui.label(RichText::new(format!(" {number}   {title}")).strong());
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     let mut button = |text: &str, verb: &str| {
                         let name = format!("{verb} {salt} {number}");

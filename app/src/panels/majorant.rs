@@ -45,7 +45,7 @@ impl Panel for Majorant {
             tightness_ui(ui, info.tightness);
         }
         let shared = "Every wavelength gets the largest one's majorant: μ = factor · max over x and λ of σt";
-        switch(ui, "Shared", &mut majorant.shared, "by all wavelengths", shared);
+        switch(ui, "Shared", "Shared majorant", &mut majorant.shared, "by all wavelengths", shared);
         row(ui, "Where exceeded", "What happens where σt is larger than μ", |ui, _| {
             let options = [
                 (WhenExceeded::Weighted, "Weighted", "σn = μ − σt turns negative; the weights stay right"),

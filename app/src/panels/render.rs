@@ -5,7 +5,7 @@ use crate::lab::Command;
 use crate::lab::stats::{count, duration};
 use crate::theme::Palette;
 use crate::widgets::{Value, badge, callout, hint, optional};
-use egui::{Button, Color32, Grid, RichText, Sense, Ui, vec2};
+use egui::{Align2, Button, Color32, RichText, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 use majorant_core::session::Status;
 
 /// See the [module](self).
@@ -81,15 +81,15 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let limit = cx.draft.render.spp.map_or_else(String::new, |limit| format!(" / {limit}"));
     let eta = stats.eta_seconds.map_or_else(|| "no limit".into(), duration);
     let figures = [
-        ("Samples / pixel", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
+        ("Samples", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
         ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel and second"),
         (
-            "Look-ups / s",
+            "Look-ups/s",
             optional(stats.lookups_per_second),
             "Evaluations of the medium's coefficients per second",
         ),
         (
-            "Look-ups / path",
+            "Look-ups/path",
             optional(stats.lookups_per_path),
             "Look-ups per path: what the majorant and the estimator cost",
         ),
@@ -97,18 +97,34 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
         ("Left", eta, "Estimated time to the nearest limit"),
     ];
     ui.add_space(2.0);
-    Grid::new("figures")
-        .num_columns(2)
-        .spacing([12.0, 1.0])
-        .min_row_height(19.0)
-        .min_col_width(crate::theme::LABEL_WIDTH - 4.0)
-        .show(ui, |ui| {
-            for (label, value, tip) in figures {
-                ui.label(RichText::new(label).color(Palette::get(ui).weak)).on_hover_text(tip);
-                ui.label(RichText::new(value).monospace().color(Palette::get(ui).strong)).on_hover_text(tip);
-                ui.end_row();
+    let width = (ui.available_width() / 3.0).floor();
+    for line in figures.chunks(3) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for (label, value, tip) in line {
+                figure_ui(ui, width, label, value, tip);
             }
         });
+    }
+}
+
+/// A number under its label.
+fn figure_ui(ui: &mut Ui, width: f32, label: &str, value: &str, tip: &str) {
+    let palette = Palette::get(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{label}: {value}")));
+    let text = |at, align, text: &str, style: TextStyle, colour| {
+        ui.painter().text(at, align, text, style.resolve(ui.style()), colour);
+    };
+    text(rect.left_top(), Align2::LEFT_TOP, label, TextStyle::Small, palette.weak);
+    text(
+        rect.left_bottom() - vec2(0.0, 2.0),
+        Align2::LEFT_BOTTOM,
+        value,
+        TextStyle::Monospace,
+        palette.strong,
+    );
+    response.on_hover_text(tip);
 }
 
 fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
@@ -126,29 +142,26 @@ fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
 }
 
 fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let render = &mut cx.draft.render;
-    ui.add_space(crate::theme::UNIT);
-    let spp = "Rendering stops after this many samples per pixel; more can be added later";
-    optional(ui, "Stop at", &mut render.spp, 1024, "no sample limit", spp, |v| {
-        v.unit("spp").range(1.0..=1e9)
-    });
-    let seconds = "Rendering stops after this much time";
-    optional(ui, "Stop after", &mut render.seconds, 60.0, "no time limit", seconds, |v| {
-        v.unit("s").range(0.1..=1e6).logarithmic()
-    });
-    let title = RichText::new("Threads, seed, latency").small();
-    egui::CollapsingHeader::new(title).id_salt("more").show_unindented(ui, |ui| {
-        let threads = "Worker threads; the picture does not depend on them";
-        optional(ui, "Threads", &mut render.threads, 1, "one per core", threads, |v| v.range(1.0..=1024.0));
-        Value::new("Seed", &mut render.seed, 0)
-            .opened(cx.opened.render.seed)
-            .range(0.0..=9e15)
-            .tip("Selects the random numbers; nothing else is random")
-            .show(ui);
+    let title = RichText::new("Limits, threads, seed").small();
+    egui::CollapsingHeader::new(title).id_salt("limits").show_unindented(ui, |ui| {
+        let (render, opened) = (&mut cx.draft.render, &cx.opened.render);
+        let tip = "Rendering stops after this many samples per pixel; more can be added later";
+        optional(ui, "Stop at", &mut render.spp, opened.spp, 1024, "no sample limit", tip, |v| {
+            v.unit("spp").range(1.0..=1e9)
+        });
+        let tip = "Rendering stops after this much time";
+        optional(ui, "Stop after", &mut render.seconds, opened.seconds, 60.0, "no time limit", tip, |v| {
+            v.unit("s").range(0.1..=1e6).logarithmic()
+        });
+        let tip = "Worker threads; the picture does not depend on them";
+        optional(ui, "Threads", &mut render.threads, opened.threads, 1, "one per core", tip, |v| {
+            v.range(1.0..=1024.0)
+        });
+        let seed = Value::new("Seed", &mut render.seed, 0).opened(opened.seed).range(0.0..=9e15);
+        seed.tip("Selects the random numbers; nothing else is random").show(ui);
         if let Some(snapshot) = cx.state.snapshot.as_ref() {
-            let text =
-                format!("{} threads, {} of CPU time.", snapshot.threads, duration(snapshot.cpu_seconds));
-            hint(ui, &text);
+            let cpu = duration(snapshot.cpu_seconds);
+            hint(ui, &format!("{} threads, {cpu} of CPU time.", snapshot.threads));
         }
         if let Some(seconds) = cx.state.first_picture_seconds {
             hint(ui, &format!("First picture {:.0} ms after the last edit.", 1e3 * seconds));

@@ -12,11 +12,11 @@
 use super::{camera_control, image_view::ImageView, readout};
 use crate::theme::Palette;
 use egui::{
-    Color32, CursorIcon, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, TextureHandle, Ui, Vec2,
-    WidgetInfo, pos2,
+    Color32, CursorIcon, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind,
+    TextureHandle, Ui, Vec2, WidgetInfo, pos2,
 };
 use majorant_core::film::Snapshot;
-use majorant_core::scene::CameraDoc;
+use majorant_core::scene::{CameraDoc, ViewDoc};
 
 /// What is shown.
 pub struct Shown<'a> {
@@ -26,6 +26,8 @@ pub struct Shown<'a> {
     pub snapshot: Option<&'a Snapshot>,
     /// Whether the picture is the last good one of a scene that does not build any more.
     pub dimmed: bool,
+    /// How radiance is shown.
+    pub display: &'a ViewDoc,
 }
 
 /// What came of it.
@@ -49,7 +51,6 @@ pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &Camer
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Rendered image"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, palette.canvas);
-    #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
     let image = shown.snapshot.map_or(film, |s| Vec2::new(s.width as f32, s.height as f32));
 
     let (view, moved) = gestures(ui, &response, view, camera, rect, image);
@@ -61,11 +62,12 @@ pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &Camer
             painter.image(texture.id(), frame, uv, tint);
         }
         None => {
-            painter.rect_filled(frame, 0.0, Color32::BLACK);
+            painter.rect_filled(frame, 0.0, palette.well);
+            painter.rect_stroke(frame, 0.0, Stroke::new(1.0, palette.line), StrokeKind::Inside);
         }
     }
     if let Some(snapshot) = shown.snapshot {
-        readout::paint_values(&painter, view, rect, snapshot);
+        readout::paint_values(&painter, view, rect, snapshot, shown.display);
     }
     let pixel = response.hover_pos().and_then(|at| view.pixel_at(rect, image, at));
     Outcome { view, camera: moved, pixel, rect, zoom: view.zoom(rect, image) }

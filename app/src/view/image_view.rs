@@ -81,7 +81,6 @@ impl ImageView {
 
     /// The pixel under a screen point, if it is on the picture.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be inside")]
     pub fn pixel_at(&self, canvas: Rect, image: Vec2, at: Pos2) -> Option<[usize; 2]> {
         let p = self.image_from_screen(canvas, image, at);
         let inside = p.x >= 0.0 && p.y >= 0.0 && p.x < image.x && p.y < image.y;
@@ -109,7 +108,6 @@ impl ImageView {
 
     /// The pixels that lie at least partly on the canvas, `[x0, y0, x1, y1]`, ends exclusive.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the image")]
     pub fn visible_pixels(&self, canvas: Rect, image: Vec2) -> [usize; 4] {
         let corner = |p: Pos2| self.image_from_screen(canvas, image, p);
         let (min, max) = (corner(canvas.min), corner(canvas.max));

@@ -2,7 +2,8 @@
 
 use super::image_view::ImageView;
 use egui::{Align2, Color32, FontId, Painter, Rect, Vec2, pos2};
-use majorant_core::film::Snapshot;
+use majorant_core::film::{Snapshot, display::DisplayTransform};
+use majorant_core::scene::ViewDoc;
 
 /// Zoom from which values are printed on the pixels.
 const PRINTED_FROM: f32 = 56.0;
@@ -40,21 +41,27 @@ pub fn describe(snapshot: &Snapshot, [x, y]: [usize; 2]) -> Option<String> {
 }
 
 /// Prints linear values on every visible pixel once they are large enough.
-pub fn paint_values(painter: &Painter, view: ImageView, canvas: Rect, snapshot: &Snapshot) {
-    #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
+pub fn paint_values(
+    painter: &Painter,
+    view: ImageView,
+    canvas: Rect,
+    snapshot: &Snapshot,
+    display: &ViewDoc,
+) {
     let image = Vec2::new(snapshot.width as f32, snapshot.height as f32);
     let zoom = view.zoom(canvas, image);
     if zoom < PRINTED_FROM {
         return;
     }
+    let transform = DisplayTransform::new(display);
     let font = FontId::monospace((zoom / 6.5).min(15.0));
     let [x0, y0, x1, y1] = view.visible_pixels(canvas, image);
     for (y, x) in (y0..y1).flat_map(|y| (x0..x1).map(move |x| (y, x))) {
         let Some(mean) = snapshot.mean.get(y * snapshot.width + x) else { continue };
-        #[allow(clippy::cast_precision_loss, reason = "image sizes are small")]
         let middle = view.screen_from_image(canvas, image, pos2(x as f32 + 0.5, y as f32 + 0.5));
-        let bright = 0.2126 * mean[0] + 0.7152 * mean[1] + 0.0722 * mean[2] > 0.35;
-        let ink = if bright { Color32::from_black_alpha(220) } else { Color32::from_white_alpha(220) };
+        let [r, g, b] = transform.encode(*mean).map(f32::from);
+        let bright = 0.3 * r + 0.6 * g + 0.1 * b > 120.0;
+        let ink = if bright { Color32::from_black_alpha(230) } else { Color32::from_white_alpha(230) };
         for (line, value) in (-1_i8..).zip(mean) {
             let at = middle + Vec2::new(0.0, f32::from(line) * font.size * 1.25);
             painter.text(at, Align2::CENTER_CENTER, short(*value), font.clone(), ink);

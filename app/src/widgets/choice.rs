@@ -16,9 +16,10 @@ pub fn segmented<T: PartialEq + Copy>(
     ui.scope(|ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 1.0;
-            #[allow(clippy::cast_precision_loss, reason = "a handful of options")]
+            // The buttons share the width; their text may fill it.
+            ui.spacing_mut().button_padding.x = 2.0;
             let count = options.len() as f32;
-            let width = ((ui.available_width() - count) / count).floor();
+            let width = ((ui.available_width() - (count - 1.0)) / count).floor();
             for (index, (option, label, tip)) in options.iter().enumerate() {
                 let selected = *value == *option;
                 let text = RichText::new(*label).color(if selected { palette.strong } else { palette.text });
@@ -46,9 +47,9 @@ fn ends(index: usize, count: usize) -> CornerRadius {
 }
 
 /// A row with a checkbox.
-pub fn switch(ui: &mut Ui, label: &str, value: &mut bool, text: &str, tip: &str) {
+pub fn switch(ui: &mut Ui, label: &str, name: &str, value: &mut bool, text: &str, tip: &str) {
     row(ui, label, tip, |ui, _| {
-        let response = ui.checkbox(value, text).accessible_name(label);
+        let response = ui.checkbox(value, text).accessible_name(name);
         if !tip.is_empty() {
             response.on_hover_text(tip);
         }

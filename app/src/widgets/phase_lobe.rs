@@ -7,7 +7,7 @@ use std::f32::consts::{PI, TAU};
 
 /// Decades that the logarithmic radius spans.
 const DECADES: f32 = 3.0;
-const SAMPLES: u16 = 240;
+const SAMPLES: u16 = 720;
 
 /// Mean cosine of a phase function, by quadrature: 2π ∫ p(μ) μ dμ.
 #[must_use]
@@ -50,7 +50,10 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     fill(&painter, origin, &outline, palette.accent.gamma_multiply(0.22));
     painter.add(Shape::line(outline, Stroke::new(1.6, palette.accent)));
     let tail = pos2(rect.left() + 10.0, origin.y);
-    painter.arrow(tail, origin - tail - vec2(4.0, 0.0), Stroke::new(1.4, palette.text));
+    let tip = origin - vec2(5.0, 0.0);
+    painter.line_segment([tail, tip], Stroke::new(1.4, palette.text));
+    let head = [tip, tip + vec2(-8.0, -3.5), tip + vec2(-8.0, 3.5)];
+    painter.add(Shape::convex_polygon(head.to_vec(), palette.text, Stroke::NONE));
     painter.circle_filled(origin, 2.5, palette.strong);
     let text = |at, align, text: String| {
         painter.text(at, align, text, FontId::proportional(12.0), palette.weak);

@@ -1,10 +1,7 @@
-//! A labelled line of a panel: label, content, and a slot at the end for the reset button.
+//! A labelled line of a panel: label left, content right, all with the same edges.
 
 use crate::theme::LABEL_WIDTH;
 use egui::{Align, Id, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
-
-/// Width of the slot at the end of a row.
-pub(super) const SLOT: f32 = 18.0;
 
 /// A row; `add` gets the rest of the line and the label's id, to name its widget by.
 pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id) -> R) -> R {
@@ -18,9 +15,4 @@ pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id)
         add(ui, response.id)
     })
     .inner
-}
-
-/// A row whose content is right of the label column but has no slot to keep free.
-pub fn wide_row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui) -> R) -> R {
-    row(ui, label, tip, |ui, _| add(ui))
 }

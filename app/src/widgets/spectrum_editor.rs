@@ -8,6 +8,7 @@ use super::text::buffered_text;
 use super::value::{Value, format_number};
 use super::{callout, hint};
 use crate::theme::Palette;
+use egui::containers::menu::MenuButton;
 use egui::{
     Button, CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui,
     Vec2, WidgetInfo, vec2,
@@ -74,7 +75,8 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
                 *doc = model::converted(doc, kind);
             }
         });
-        let presets = ui.menu_button("Presets", |ui| {
+        let button = Button::new("Presets").min_size(vec2(ui.available_width(), 0.0));
+        let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
             for preset in presets::PRESETS {
                 let chosen = *doc == SpectrumDoc::Preset(preset.id.into());
                 if ui.selectable_label(chosen, preset.id).on_hover_text(preset.summary).clicked() {
@@ -88,7 +90,7 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
                 ui.close();
             }
         });
-        presets.response.accessible_name(format!("{} presets", field.name));
+        response.accessible_name(format!("{} presets", field.name));
     });
 }
 
@@ -146,9 +148,9 @@ fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         ControlPoint { lambda_nm: lambda.round(), value: tidy(value.max(0.0), axes.top) }
     };
     let mut edit: Option<(Vec<ControlPoint>, Outside)> = None;
-    if background.double_clicked()
-        && let Some(p) = background.interact_pointer_pos()
-    {
+    // A click just before makes it a triple click.
+    let doubled = background.double_clicked() || background.triple_clicked();
+    if doubled && let Some(p) = background.interact_pointer_pos() {
         let (mut points, outside) = model::points_of(doc);
         if model::add(&mut points, at(p)).is_some() {
             edit = Some((points, outside));

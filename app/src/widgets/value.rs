@@ -1,9 +1,17 @@
 //! A number that can be dragged, typed with its unit, and set back.
+//!
+//! "Back" is to the scene as it was opened or saved, so that a button shows only where something was
+//! changed; the default is in the menu of a right click.
 
-use super::row::{SLOT, row};
+use super::row::row;
 use crate::theme::Palette;
-use egui::{Button, DragValue, Id, Rect, Response, RichText, Ui, emath::Numeric, vec2};
+use egui::{
+    Align, Button, DragValue, Id, Layout, Rect, Response, RichText, Ui, UiBuilder, emath::Numeric, pos2, vec2,
+};
 use std::ops::RangeInclusive;
+
+/// Width of the reset button, at the end of the label column.
+const SLOT: f32 = 18.0;
 
 /// At most six significant digits, no trailing zeros.
 #[must_use]
@@ -14,7 +22,6 @@ pub fn format_number(value: f64) -> String {
     if !(1e-4..1e7).contains(&value.abs()) {
         return format!("{value:e}");
     }
-    #[allow(clippy::cast_possible_truncation, reason = "the logarithm of a number between 1e-4 and 1e7")]
     let decimals = (5 - value.abs().log10().floor() as i32).max(0);
     let text = format!("{value:.*}", usize::try_from(decimals).unwrap_or(0));
     match text.contains('.') {
@@ -117,24 +124,26 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
         row(ui, self.label, self.tip, |ui, label| self.field(ui, label))
     }
 
-    fn field(self, ui: &mut Ui, label: Id) -> Response {
+    pub(super) fn field(self, ui: &mut Ui, label: Id) -> Response {
         let speed = if self.logarithmic { (self.value.to_f64().abs() * 0.012).max(1e-4) } else { self.speed };
-        let width = (ui.available_width() - SLOT - ui.spacing().item_spacing.x).max(48.0);
-        let response = drag(ui, self.value, &self.range, speed, self.unit, width);
+        let response = drag(ui, self.value, &self.range, speed, self.unit, ui.available_width());
         paint_bar(ui, &response, self.value.to_f64(), &self.range, self.logarithmic);
         let response = match &self.name {
             Some(name) => response.accessible_name(name.clone()),
             None => response.labelled_by(label),
         };
         let response = if self.tip.is_empty() { response } else { response.on_hover_text(self.tip) };
+        reset_menu(&response, self.value, self.opened, self.default, |v| format_number(v.to_f64()));
+        let changed = *self.value != self.opened;
         let name = self.name.as_deref().unwrap_or(self.label);
-        reset_menu(&response, self.value, self.opened, self.default);
-        reset_slot(ui, self.value, self.opened, name);
+        if changed && reset_button(ui, &response, name, &format_number(self.opened.to_f64())) {
+            *self.value = self.opened;
+        }
         response
     }
 }
 
-fn drag<N: Numeric>(
+pub(super) fn drag<N: Numeric>(
     ui: &mut Ui,
     value: &mut N,
     range: &RangeInclusive<f64>,
@@ -158,7 +167,6 @@ fn drag<N: Numeric>(
 }
 
 /// A hairline at the foot of the field that shows where the value lies in its range.
-#[allow(clippy::cast_possible_truncation, reason = "a fraction between 0 and 1")]
 fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f64>, logarithmic: bool) {
     let (low, high) = (*range.start(), *range.end());
     if response.has_focus() || high - low > 1e5 {
@@ -178,38 +186,44 @@ fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f6
     );
 }
 
-fn reset_menu<N: Numeric + PartialEq>(response: &Response, value: &mut N, opened: N, default: N) {
+/// The two ways back, on a right click.
+pub(super) fn reset_menu<T: PartialEq + Copy>(
+    response: &Response,
+    value: &mut T,
+    opened: T,
+    default: T,
+    text: impl Fn(T) -> String,
+) {
     response.context_menu(|ui| {
-        if ui.button(format!("As opened: {}", format_number(opened.to_f64()))).clicked() {
+        if ui.button(format!("As opened: {}", text(opened))).clicked() {
             *value = opened;
             ui.close();
         }
-        if ui.button(format!("Default: {}", format_number(default.to_f64()))).clicked() {
+        if default != opened && ui.button(format!("Default: {}", text(default))).clicked() {
             *value = default;
             ui.close();
         }
     });
 }
 
-fn reset_slot<N: Numeric + PartialEq>(ui: &mut Ui, value: &mut N, opened: N, name: &str) {
-    if *value == opened {
-        return;
-    }
+/// A small button at the end of the label column, left of a changed field.
+pub(super) fn reset_button(ui: &mut Ui, field: &Response, name: &str, opened: &str) -> bool {
+    let right = field.rect.left() - ui.spacing().item_spacing.x + 2.0;
+    let rect = Rect::from_min_max(pos2(right - SLOT, field.rect.top()), pos2(right, field.rect.bottom()));
     let text = RichText::new("↺").color(Palette::get(ui).accent);
-    let button = ui.add(Button::new(text).frame(false).min_size(vec2(SLOT, 0.0)).small());
-    let button = button
-        .on_hover_text(format!("Back to {}", format_number(opened.to_f64())))
-        .accessible_name(format!("Reset {name}"));
-    if button.clicked() {
-        *value = opened;
-    }
+    let mut slot = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)));
+    slot.spacing_mut().button_padding = vec2(2.0, 0.0);
+    let button = slot.add(Button::new(text).frame(false).min_size(rect.size()));
+    button.on_hover_text(format!("Back to {opened}")).accessible_name(format!("Reset {name}")).clicked()
 }
 
 /// A row with an optional number: a switch, and the number while it is on.
+#[allow(clippy::too_many_arguments, reason = "a row of a form")]
 pub fn optional<N: Numeric + PartialEq>(
     ui: &mut Ui,
     label: &str,
     value: &mut Option<N>,
+    opened: Option<N>,
     initial: N,
     off: &str,
     tip: &str,
@@ -220,33 +234,23 @@ pub fn optional<N: Numeric + PartialEq>(
         let checkbox = ui.checkbox(&mut on, "").accessible_name(format!("{label} on"));
         let checkbox = if tip.is_empty() { checkbox } else { checkbox.on_hover_text(tip) };
         if checkbox.changed() {
-            *value = on.then_some(initial);
+            *value = on.then(|| opened.unwrap_or(initial));
         }
         match value {
             Some(number) => {
-                let opened = *number;
-                let field = style(Value::new(label, number, initial).opened(opened).tip(tip)).named(label);
+                // The reset button is the switch's; the number has only its menu.
+                let mut field = style(Value::new(label, number, initial).tip(tip).named(label));
+                field.opened = *field.value;
+                field.default = opened.unwrap_or(initial);
                 field.field(ui, Id::NULL);
             }
             None => {
                 ui.weak(off);
             }
         }
-    });
-}
-
-/// A row with three coordinates.
-pub fn vector(ui: &mut Ui, label: &str, name: &str, value: &mut [f32; 3], speed: f64, unit: &str, tip: &str) {
-    row(ui, label, tip, |ui, _| {
-        let gap = 4.0;
-        ui.spacing_mut().item_spacing.x = gap;
-        let width = ((ui.available_width() - SLOT - 3.0 * gap) / 3.0).max(40.0);
-        let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
-        for (axis, x) in ["x", "y", "z"].iter().zip(value.iter_mut()) {
-            let field = drag(ui, x, &range, speed, unit, width).accessible_name(format!("{name} {axis}"));
-            if !tip.is_empty() {
-                field.on_hover_text(format!("{axis}: {tip}"));
-            }
+        let text = opened.map_or_else(|| off.to_owned(), |n| format_number(n.to_f64()));
+        if *value != opened && reset_button(ui, &checkbox, label, &text) {
+            *value = opened;
         }
     });
 }

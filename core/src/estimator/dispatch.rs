@@ -75,7 +75,6 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     }
 }
 
-#[allow(clippy::cast_precision_loss, reason = "pixel coordinates are small")]
 fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     medium: &M,
     scene: &Scene,

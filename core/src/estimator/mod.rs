@@ -11,6 +11,7 @@ pub use dispatch::{Kernel, PathEstimate, Settings};
 
 use crate::math::Ray;
 use crate::medium::LocalMedium;
+use crate::scene::{self, Problem, SceneDoc};
 use crate::spectrum::{Components, Sampled};
 use crate::transport::{Trace, World};
 
@@ -36,6 +37,20 @@ pub static REGISTRY: &[Entry] = &[independent::ENTRY, spectral_mis::ENTRY, nee::
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Entry> {
     REGISTRY.iter().find(|e| e.id == id)
+}
+
+/// Every problem of a document: those of its scene, and an estimator that does not exist.
+#[must_use]
+pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
+    let mut problems = scene::validate(doc);
+    if find(&doc.estimator.id).is_none() {
+        let known: Vec<_> = REGISTRY.iter().map(|e| e.id).collect();
+        problems.push(Problem {
+            path: "estimator.id".into(),
+            message: format!("`{}` is not an estimator: choose {}", doc.estimator.id, known.join(", ")),
+        });
+    }
+    problems
 }
 
 /// The contract of an estimator: radiance that arrives along a ray, at the path's components.

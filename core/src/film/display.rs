@@ -1,6 +1,38 @@
 //! From linear radiance to display colour: exposure, tone curve, gamma. Shared by window and PNG.
 
-use crate::scene::{ToneCurve, ViewDoc};
+use serde::{Deserialize, Serialize};
+
+/// How linear radiance becomes display colour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ViewDoc {
+    /// Stops: radiance is multiplied by 2 to this power.
+    pub exposure_ev: f32,
+    /// The curve that maps bright radiance into the display's range.
+    pub tone: ToneCurve,
+    /// Display gamma; absent: the sRGB curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gamma: Option<f32>,
+}
+
+impl Default for ViewDoc {
+    fn default() -> Self {
+        Self { exposure_ev: 0.0, tone: ToneCurve::Filmic, gamma: None }
+    }
+}
+
+/// The curve that maps bright radiance into the display's range.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToneCurve {
+    /// Clips at 1: what you see is what was computed.
+    Linear,
+    /// x / (1 + x) by luminance (Reinhard et al. 2002).
+    Reinhard,
+    /// A soft shoulder and toe, per channel (Narkowicz's fit of ACES).
+    #[default]
+    Filmic,
+}
 
 /// A display transform, ready to be applied to many pixels.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +52,6 @@ impl DisplayTransform {
 
     /// Display colour of one linear sRGB value, 8 bits per channel. What is not finite shows magenta.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to 0..=255")]
     pub fn encode(&self, linear: [f32; 3]) -> [u8; 3] {
         if linear.iter().any(|x| !x.is_finite()) {
             return [255, 0, 255];

@@ -77,7 +77,6 @@ pub struct Snapshot {
 impl Snapshot {
     /// Mean colour and standard error of every pixel of a film, at single precision.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, reason = "published at single precision")]
     pub fn images(film: &Film) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         film.pixels
             .iter()
@@ -87,7 +86,6 @@ impl Snapshot {
 
     /// The image's mean colour.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "pixel counts are far below 2^52")]
     pub fn mean_colour(&self) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for pixel in &self.mean {

@@ -71,7 +71,6 @@ pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
 ///
 /// # Errors
 /// When the file cannot be written.
-#[allow(clippy::cast_possible_truncation, reason = "film sizes fit 32 bits by validation")]
 pub fn write_png(path: &Path, snapshot: &Snapshot, view: &ViewDoc) -> std::result::Result<(), ExportError> {
     let display = DisplayTransform::new(view);
     let bytes: Vec<u8> = snapshot.mean.iter().flat_map(|p| display.encode(*p)).collect();

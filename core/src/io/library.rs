@@ -103,7 +103,6 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
     let samples: Vec<[f32; C]> =
         voxels.values.chunks_exact(C).map(|c| std::array::from_fn(|i| c[i])).collect();
     let min = DVec3::from(voxels.min_index.map(f64::from));
-    #[allow(clippy::cast_precision_loss, reason = "sizes are far below 2^52")]
     let size = DVec3::from(voxels.size.map(|n| n as f64));
     let (grid, index_from_unit) = match voxels.convention {
         SampleConvention::CellCentred => (

@@ -3,7 +3,8 @@
 //! Errors name line and column. Keys carry their units (`fov_deg`, `lambda_nm`), so that a wrong unit
 //! is an unknown key or a value out of range.
 
-use crate::scene::{FORMAT_VERSION, Problem, SceneDoc, validate};
+use crate::estimator::validate;
+use crate::scene::{FORMAT_VERSION, SceneDoc};
 use std::path::Path;
 use toml_edit::{Document, Item};
 
@@ -162,25 +163,23 @@ fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// Where an error lies. Inside tagged tables the reader only knows the table: there the key that the
-/// message quotes is looked up.
+/// Where an error lies. Inside tagged tables the reader only knows where the table begins: there the
+/// key that the message quotes is looked up, down to the next table's header.
 fn locate_error(text: &str, error: &toml::de::Error) -> usize {
-    let span = error.span().unwrap_or(0..text.len());
-    let quoted = error.message().split('`').nth(1).filter(|q| !q.is_empty());
-    if let Some(key) = quoted
-        && let Some(region) = text.get(span.clone())
-    {
-        let mut start = span.start;
-        for line in region.split_inclusive('\n') {
-            let trimmed = line.trim_start();
-            let rest = trimmed.strip_prefix(key).map(str::trim_start);
-            if rest.is_some_and(|r| r.starts_with('=')) {
-                return start + line.len() - trimmed.len();
-            }
-            start += line.len();
+    let start = error.span().map_or(0, |span| span.start);
+    let Some(key) = error.message().split('`').nth(1).filter(|q| !q.is_empty()) else { return start };
+    let mut offset = start;
+    for (number, line) in text.get(start..).unwrap_or_default().split_inclusive('\n').enumerate() {
+        let trimmed = line.trim_start();
+        if number > 0 && trimmed.starts_with('[') {
+            break;
         }
+        if trimmed.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('=')) {
+            return offset + line.len() - trimmed.len();
+        }
+        offset += line.len();
     }
-    span.start
+    start
 }
 
 /// Where the value of a key such as `lights[1].size` stands in the text.
@@ -215,10 +214,4 @@ fn offset_of(text: &str, path: &str) -> Option<usize> {
         }
     }
     offset
-}
-
-/// The problems of a document as one message per line, for people.
-#[must_use]
-pub fn describe(problems: &[Problem]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }

@@ -26,7 +26,6 @@ pub struct Panorama {
 impl Panorama {
     /// Prepares a picture of finite, non-negative linear sRGB; `None` if it is empty or black.
     #[must_use]
-    #[allow(clippy::cast_possible_truncation, reason = "cumulative sums are kept at single precision")]
     pub fn new(width: usize, height: usize, texels: Vec<[f32; 3]>) -> Option<Self> {
         if width == 0 || height == 0 || texels.len() != width * height {
             return None;
@@ -60,19 +59,12 @@ impl Panorama {
     }
 
     /// Density per steradian over a texel.
-    #[allow(clippy::cast_precision_loss, reason = "picture sizes are small")]
     fn density(&self, x: usize, y: usize) -> f32 {
         let columns = self.column(y);
         let probability = (self.rows[y + 1] - self.rows[y]) * (columns[x + 1] - columns[x]);
         probability * self.width as f32 / (TAU * band(y, self.height))
     }
 
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
-        reason = "the index is clamped to the picture"
-    )]
     fn texel_at(&self, d: Vec3) -> (usize, usize) {
         let u = 0.5 + d.x.atan2(-d.z) / TAU;
         let v = d.y.clamp(-1.0, 1.0).acos() / PI;
@@ -82,7 +74,6 @@ impl Panorama {
         )
     }
 
-    #[allow(clippy::cast_precision_loss, reason = "picture sizes are small")]
     fn sample(&self, u: Vec2) -> (Vec3, f32) {
         let (y, v) = invert(&self.rows, u.x);
         let (x, s) = invert(self.column(y), u.y);
@@ -138,7 +129,6 @@ fn luminance([r, g, b]: [f32; 3]) -> f32 {
 }
 
 /// cos θ at the upper edge of row `y`.
-#[allow(clippy::cast_precision_loss, reason = "picture sizes are small")]
 fn cos_edge(y: usize, height: usize) -> f32 {
     (PI * y as f32 / height as f32).cos()
 }

@@ -20,7 +20,6 @@ impl Sampler {
     }
 
     /// A number uniform in [0, 1).
-    #[allow(clippy::cast_precision_loss, reason = "24 bits fit a single-precision mantissa")]
     pub fn next_1d(&mut self) -> f32 {
         (self.rng.next_u32() >> 8) as f32 * (1.0 / 16_777_216.0)
     }

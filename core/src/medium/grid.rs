@@ -27,8 +27,6 @@ pub struct Grid<const C: usize> {
 impl<const C: usize> Grid<C> {
     /// A grid of `size` samples per axis; `None` if the number of values does not fit or is zero.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "sizes are far below 2^24 per axis")]
-    #[allow(clippy::cast_possible_truncation, reason = "means are published at single precision")]
     pub fn new(size: [usize; 3], values: Vec<[f32; C]>, lattice: Lattice) -> Option<Self> {
         let count = size[0].checked_mul(size[1])?.checked_mul(size[2])?;
         if count == 0 || count != values.len() {
@@ -55,12 +53,6 @@ impl<const C: usize> Grid<C> {
     /// The value at a point of the unit cube.
     #[must_use]
     #[inline]
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
-        reason = "the index is clamped to the grid first"
-    )]
     pub fn at(&self, unit: Vec3) -> [f32; C] {
         let index = (unit * self.scale + self.offset).clamp(Vec3::ZERO, self.last);
         let [nx, ny, nz] = self.size;

@@ -1,7 +1,36 @@
 //! Majorants: what free flights are sampled from.
 
-use crate::scene::{MajorantDoc, WhenExceeded};
 use crate::spectrum::{Components, Sampled, Spectrum};
+use serde::{Deserialize, Serialize};
+
+/// The majorant μ̄ relative to the least upper bound of the extinction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MajorantDoc {
+    /// 1 is tight; above it null collisions are added; below it μ̄ no longer bounds the extinction.
+    pub factor: f32,
+    /// Every wavelength gets the largest wavelength's majorant.
+    pub shared: bool,
+    /// What happens where the extinction exceeds the majorant.
+    pub when_exceeded: WhenExceeded,
+}
+
+impl Default for MajorantDoc {
+    fn default() -> Self {
+        Self { factor: 1.0, shared: false, when_exceeded: WhenExceeded::Weighted }
+    }
+}
+
+/// What happens where the extinction exceeds the majorant (factor below 1).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WhenExceeded {
+    /// The null coefficient turns negative; unbiased, with more variance.
+    #[default]
+    Weighted,
+    /// The null coefficient is clamped at zero: **biased**, the textbook mistake.
+    Clamp,
+}
 
 /// A stretch of a ray with one majorant μ̄ per component.
 #[derive(Clone, Copy, Debug)]

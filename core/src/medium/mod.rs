@@ -18,7 +18,7 @@ pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
 pub use grid::{Grid, Lattice};
 pub use homogeneous::Homogeneous;
-pub use majorant::{MajorantPolicy, MajorantSegment};
+pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 
 use crate::math::Ray;

@@ -5,13 +5,15 @@
 //! g > 0 scatters forward. Values are per steradian and integrate to 1 over the sphere; every phase
 //! function here is sampled exactly, so that its value is also its density.
 
+mod doc;
 mod henyey_greenstein;
 mod isotropic;
 mod rayleigh;
 mod two_lobe;
 
 use crate::math::Frame;
-use crate::scene::PhaseDoc;
+pub use doc::PhaseDoc;
+
 use glam::{Vec2, Vec3};
 use henyey_greenstein::HenyeyGreenstein;
 use isotropic::Isotropic;

@@ -1,7 +1,6 @@
 //! Refuses documents that make no sense, naming the key, the value and the cure.
 
 use super::{LightDoc, MediumDoc, ObjectDoc, PhaseDoc, SceneDoc};
-use crate::estimator;
 use crate::spectrum::SpectrumDoc;
 use glam::Vec3;
 use std::fmt;
@@ -66,16 +65,15 @@ impl Checker {
     }
 }
 
-/// Every problem of a document, in the order of its keys.
+/// Every problem of a document, in the order of its keys; whether the estimator exists is
+/// [`crate::estimator::validate`]'s to say.
 #[must_use]
 pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     let mut c = Checker::default();
     let pixels = u64::from(doc.film.width) * u64::from(doc.film.height);
-    c.check(
-        pixels > 0,
-        "film",
-        format!("is {} × {} pixels: give both sides at least 1", doc.film.width, doc.film.height),
-    );
+    for (key, side) in [("film.width", doc.film.width), ("film.height", doc.film.height)] {
+        c.check(side > 0, key, "is 0: an image needs at least one pixel");
+    }
     c.check(
         pixels <= MAX_PIXELS,
         "film",
@@ -106,12 +104,6 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     for (i, object) in doc.objects.iter().enumerate() {
         check_object(&mut c, &format!("objects[{i}]"), object);
     }
-    let known: Vec<_> = estimator::REGISTRY.iter().map(|e| e.id).collect();
-    c.check(
-        known.contains(&doc.estimator.id.as_str()),
-        "estimator.id",
-        format!("`{}` is not an estimator: choose {}", doc.estimator.id, known.join(", ")),
-    );
     c.check(
         doc.estimator.max_depth != Some(0),
         "estimator.max_depth",

@@ -65,7 +65,6 @@ impl Active {
     }
 
     /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped first")]
     fn next_samples(&self) -> u32 {
         if self.paused || self.spp == 0 {
             return 1;
@@ -276,10 +275,8 @@ fn show_preview(id: ViewId, view: &Active, mailbox: &Mailbox) {
             .install(|| preview::render(&view.scene, view.kernel, &view.settings, stride, &view.wanted()));
         let Some(image) = image else { return };
         let unknown = vec![[f32::INFINITY; 3]; image.len()];
-        #[allow(clippy::cast_possible_truncation, reason = "a small constant")]
         let snapshot = view.with_images(image, unknown, Some(stride as u32));
         mailbox.publish_snapshot(id, snapshot, view.status());
-        #[allow(clippy::cast_precision_loss, reason = "a small constant")]
         let whole_pass = began.elapsed().as_secs_f64() * (stride * stride) as f64;
         if stride <= 2 || whole_pass < FINE_PREVIEW_SECONDS {
             return;

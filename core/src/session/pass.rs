@@ -63,7 +63,6 @@ pub(super) fn run(
     costs.map(|costs| costs.into_iter().fold(Cost::default(), Cost::merge))
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "pixel coordinates fit 32 bits by validation")]
 fn add_samples(
     scene: &Scene,
     kernel: Kernel,

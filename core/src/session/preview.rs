@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 /// Renders one path at the middle of every `stride × stride` block and spreads it over the block;
 /// `None` if it was cancelled. Sample numbers beyond any film's keep it apart from the estimate.
-#[allow(clippy::cast_possible_truncation, reason = "pixel coordinates fit 32 bits by validation")]
 pub(super) fn render(
     scene: &Scene,
     kernel: Kernel,

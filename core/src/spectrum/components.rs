@@ -31,7 +31,6 @@ pub struct Wavelengths<const N: usize> {
     pub lambda_nm: [f32; N],
 }
 
-#[allow(clippy::cast_precision_loss, reason = "N is at most 4")]
 impl<const N: usize> Components<N> for Wavelengths<N> {
     fn sample(u: f32) -> Self {
         let lambda_nm = std::array::from_fn(|i| {
@@ -70,8 +69,6 @@ pub struct RgbChannels<const N: usize> {
     pub channel: [usize; N],
 }
 
-#[allow(clippy::cast_precision_loss, reason = "N is at most 3")]
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "u is in [0, 1)")]
 impl<const N: usize> Components<N> for RgbChannels<N> {
     fn sample(u: f32) -> Self {
         let hero = ((u * 3.0) as usize).min(2);

@@ -146,7 +146,6 @@ impl<'de> Visitor<'de> for SpectrumVisitor {
         )
     }
 
-    #[allow(clippy::cast_possible_truncation, reason = "scene values are single precision")]
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<SpectrumDoc, E> {
         Ok(SpectrumDoc::Constant(value as f32))
     }

@@ -31,12 +31,6 @@ impl Table {
         Self(self.0.map(f))
     }
 
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
-        reason = "the index was checked to lie in the table"
-    )]
     fn at(&self, lambda_nm: f32) -> Vec3 {
         let x = (lambda_nm - LAMBDA_MIN_NM) / STEP_NM;
         if !(0.0..=(ROWS - 1) as f32).contains(&x) {

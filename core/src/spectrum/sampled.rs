@@ -39,7 +39,6 @@ impl<const N: usize> Sampled<N> {
 
     /// Mean over the components: the balance heuristic's average over possible heroes.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "N is 1, 3 or 4")]
     pub fn mean(self) -> f32 {
         self.0.iter().sum::<f32>() / N as f32
     }

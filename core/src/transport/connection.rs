@@ -18,12 +18,6 @@ pub struct Connection<const N: usize> {
     pub radiance: Sampled<N>,
 }
 
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
-    reason = "an index among few lights"
-)]
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// Draws a light (uniformly) and a direction towards it, and walks there. `None` if nothing arrives.
     pub fn connect(

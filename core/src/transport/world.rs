@@ -58,7 +58,6 @@ pub struct World<'a, L, C, const N: usize> {
     pub settings: PathSettings,
 }
 
-#[allow(clippy::cast_precision_loss, reason = "scenes have few lights")]
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// The walk through the medium along a ray, up to `t_max`.
     #[must_use]

@@ -135,7 +135,6 @@ pub fn validate_density(grid: &VoxelGrid, path: &Path) -> Result<(), VolumeError
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 

@@ -1,5 +1,7 @@
 //! The medium as edited.
 
+use crate::medium::MajorantDoc;
+use crate::phase::PhaseDoc;
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
 
@@ -100,58 +102,4 @@ impl Default for PlacementDoc {
     fn default() -> Self {
         Self { fit: None, scale: [1.0; 3], rotate_deg: [0.0; 3], translate: [0.0; 3], matrix: None }
     }
-}
-
-/// The majorant μ̄ relative to the least upper bound of the extinction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct MajorantDoc {
-    /// 1 is tight; above it null collisions are added; below it μ̄ no longer bounds the extinction.
-    pub factor: f32,
-    /// Every wavelength gets the largest wavelength's majorant.
-    pub shared: bool,
-    /// What happens where the extinction exceeds the majorant.
-    pub when_exceeded: WhenExceeded,
-}
-
-impl Default for MajorantDoc {
-    fn default() -> Self {
-        Self { factor: 1.0, shared: false, when_exceeded: WhenExceeded::Weighted }
-    }
-}
-
-/// What happens where the extinction exceeds the majorant (factor below 1).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WhenExceeded {
-    /// The null coefficient turns negative; unbiased, with more variance.
-    #[default]
-    Weighted,
-    /// The null coefficient is clamped at zero: **biased**, the textbook mistake.
-    Clamp,
-}
-
-/// Phase function, by the cosine between the directions of propagation before and after.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum PhaseDoc {
-    /// The same in every direction.
-    #[default]
-    Isotropic,
-    /// One Henyey–Greenstein lobe.
-    HenyeyGreenstein {
-        /// Mean cosine, −1 to 1 exclusive; positive is forward.
-        g: f32,
-    },
-    /// Two Henyey–Greenstein lobes.
-    TwoLobe {
-        /// Mean cosine of the first lobe.
-        g_forward: f32,
-        /// Mean cosine of the second lobe.
-        g_backward: f32,
-        /// Share of the first lobe, 0 to 1.
-        forward: f32,
-    },
-    /// Molecules.
-    Rayleigh,
 }

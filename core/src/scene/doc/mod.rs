@@ -9,11 +9,14 @@ mod medium;
 mod object;
 mod render;
 
+pub use crate::film::display::{ToneCurve, ViewDoc};
+pub use crate::medium::{MajorantDoc, WhenExceeded};
+pub use crate::phase::PhaseDoc;
 pub use camera::{CameraDoc, FilmDoc};
 pub use light::LightDoc;
-pub use medium::{DensityDoc, GridRef, MajorantDoc, MediumDoc, PhaseDoc, PlacementDoc, WhenExceeded};
+pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
-pub use render::{Absorption, EstimatorDoc, Mode, RenderDoc, ToneCurve, ViewDoc};
+pub use render::{Absorption, EstimatorDoc, Mode, RenderDoc};
 
 use serde::{Deserialize, Serialize};
 
@@ -70,7 +73,7 @@ impl Default for SceneDoc {
             lights: vec![LightDoc::default()],
             objects: Vec::new(),
             estimator: EstimatorDoc::default(),
-            render: RenderDoc::default(),
+            render: RenderDoc { spp: Some(1024), ..RenderDoc::default() },
             view: ViewDoc::default(),
         }
     }

@@ -1,4 +1,4 @@
-//! Estimator, sampling limits and display as edited.
+//! Estimator and sampling limits as edited.
 
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +56,7 @@ pub enum Absorption {
 }
 
 /// When to stop, which random numbers, how many threads.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RenderDoc {
     /// Stop after this many samples per pixel. Absent: no limit.
@@ -70,42 +70,4 @@ pub struct RenderDoc {
     /// Worker threads. Absent: one per core.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
-}
-
-impl Default for RenderDoc {
-    fn default() -> Self {
-        Self { spp: Some(1024), seconds: None, seed: 0, threads: None }
-    }
-}
-
-/// How linear radiance becomes display colour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ViewDoc {
-    /// Stops: radiance is multiplied by 2 to this power.
-    pub exposure_ev: f32,
-    /// The curve that maps bright radiance into the display's range.
-    pub tone: ToneCurve,
-    /// Display gamma; absent: the sRGB curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gamma: Option<f32>,
-}
-
-impl Default for ViewDoc {
-    fn default() -> Self {
-        Self { exposure_ev: 0.0, tone: ToneCurve::Filmic, gamma: None }
-    }
-}
-
-/// The curve that maps bright radiance into the display's range.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ToneCurve {
-    /// Clips at 1: what you see is what was computed.
-    Linear,
-    /// x / (1 + x) by luminance (Reinhard et al. 2002).
-    Reinhard,
-    /// A soft shoulder and toe, per channel (Narkowicz's fit of ACES).
-    #[default]
-    Filmic,
 }

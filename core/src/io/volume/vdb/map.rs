@@ -71,7 +71,6 @@ fn affine(cursor: &mut Cursor) -> Result<DAffine3, Fault> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
 

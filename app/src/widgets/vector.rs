@@ -1,0 +1,77 @@
+//! Three coordinates in a row.
+
+use super::row::row;
+use super::value::{drag, format_number, reset_button, reset_menu};
+use egui::Ui;
+
+/// A row with three numbers.
+pub struct Vector<'a> {
+    label: &'a str,
+    name: String,
+    value: &'a mut [f32; 3],
+    default: [f32; 3],
+    opened: [f32; 3],
+    unit: &'a str,
+    speed: f64,
+    tip: &'a str,
+}
+
+impl<'a> Vector<'a> {
+    /// Three numbers with a label, a name that is unique in the window, and their default.
+    pub fn new(label: &'a str, name: impl Into<String>, value: &'a mut [f32; 3], default: [f32; 3]) -> Self {
+        Self { label, name: name.into(), value, default, opened: default, unit: "", speed: 0.01, tip: "" }
+    }
+
+    /// What they were when the scene was opened or saved.
+    #[must_use]
+    pub fn opened(mut self, opened: [f32; 3]) -> Self {
+        self.opened = opened;
+        self
+    }
+
+    /// In degrees.
+    #[must_use]
+    pub fn degrees(mut self) -> Self {
+        (self.unit, self.speed) = ("°", 0.5);
+        self
+    }
+
+    /// What they mean.
+    #[must_use]
+    pub fn tip(mut self, tip: &'a str) -> Self {
+        self.tip = tip;
+        self
+    }
+
+    /// Shows the row.
+    pub fn show(self, ui: &mut Ui) {
+        let Self { label, name, value, default, opened, unit, speed, tip } = self;
+        row(ui, label, tip, |ui, _| {
+            let gap = 4.0;
+            let width = ((ui.available_width() - 2.0 * gap) / 3.0).floor();
+            let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
+            let outer = ui.spacing().item_spacing.x;
+            let mut first = None;
+            for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
+                ui.spacing_mut().item_spacing.x = gap;
+                let field = drag(ui, &mut value[i], &range, speed, unit, width);
+                let field = field.accessible_name(format!("{name} {axis}"));
+                let field =
+                    if tip.is_empty() { field } else { field.on_hover_text(format!("{axis}: {tip}")) };
+                reset_menu(&field, value, opened, default, text);
+                first.get_or_insert(field);
+            }
+            ui.spacing_mut().item_spacing.x = outer;
+            if let Some(field) = first
+                && *value != opened
+                && reset_button(ui, &field, &name, &text(opened))
+            {
+                *value = opened;
+            }
+        });
+    }
+}
+
+fn text(value: [f32; 3]) -> String {
+    value.map(|x| format_number(f64::from(x))).join(", ")
+}

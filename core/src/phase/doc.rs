@@ -1,0 +1,28 @@
+//! Phase functions as edited.
+
+use serde::{Deserialize, Serialize};
+
+/// Phase function, by the cosine between the directions of propagation before and after.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum PhaseDoc {
+    /// The same in every direction.
+    #[default]
+    Isotropic,
+    /// One Henyey–Greenstein lobe.
+    HenyeyGreenstein {
+        /// Mean cosine, −1 to 1 exclusive; positive is forward.
+        g: f32,
+    },
+    /// Two Henyey–Greenstein lobes.
+    TwoLobe {
+        /// Mean cosine of the first lobe.
+        g_forward: f32,
+        /// Mean cosine of the second lobe.
+        g_backward: f32,
+        /// Share of the first lobe, 0 to 1.
+        forward: f32,
+    },
+    /// Molecules.
+    Rayleigh,
+}

@@ -1,0 +1,168 @@
+//! Scene files: they read back as they were written, and mistakes are named with line and column.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use majorant_core::io::embedded::SCENES;
+use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
+use majorant_core::scene::{
+    Absorption, CameraDoc, DensityDoc, EstimatorDoc, FilmDoc, GridRef, LightDoc, MajorantDoc, MediumDoc,
+    Mode, ObjectDoc, PhaseDoc, PlacementDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc, WhenExceeded,
+};
+use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc};
+
+/// A document in which nothing is at its default.
+fn everything() -> SceneDoc {
+    SceneDoc {
+        majorant: 1,
+        title: "All \"keys\"".into(),
+        note: "two\nlines".into(),
+        camera: CameraDoc {
+            origin: [1.0, 2.5, -3.0],
+            target: [0.1, 0.2, 0.3],
+            up: [0.0, 0.0, 1.0],
+            fov_deg: 21.5,
+        },
+        film: FilmDoc { width: 123, height: 45 },
+        medium: MediumDoc {
+            scale: 3.5,
+            extinction: SpectrumDoc::Points {
+                points: vec![
+                    ControlPoint { lambda_nm: 400.5, value: 1.25 },
+                    ControlPoint { lambda_nm: 700.0, value: 0.1 },
+                ],
+                outside: Outside::Zero,
+            },
+            albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]),
+            albedo_grid: Some(GridRef { file: "a.vol".into(), grid: None }),
+            density: DensityDoc::Grid(GridRef { file: "d.vdb".into(), grid: Some("smoke".into()) }),
+            placement: PlacementDoc {
+                fit: Some(2.0),
+                scale: [1.0, 2.0, 3.0],
+                rotate_deg: [10.0, 20.0, 30.0],
+                translate: [4.0, 5.0, 6.0],
+                matrix: Some([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0]]),
+            },
+            majorant: MajorantDoc { factor: 0.7, shared: true, when_exceeded: WhenExceeded::Clamp },
+            phase: PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.2, forward: 0.6 },
+        },
+        lights: LightDoc::templates()
+            .into_iter()
+            .map(|(_, light)| light)
+            .filter(|l| !matches!(l, LightDoc::EnvironmentMap { .. }))
+            .collect(),
+        objects: ObjectDoc::templates().into_iter().map(|(_, object)| object).collect(),
+        estimator: EstimatorDoc {
+            id: "nee".into(),
+            mode: Mode::Rgb,
+            absorption: Absorption::Analogue,
+            max_depth: Some(7),
+            roulette_depth: Some(3),
+        },
+        render: RenderDoc { spp: None, seconds: Some(12.5), seed: 42, threads: Some(3) },
+        view: ViewDoc { exposure_ev: -1.5, tone: ToneCurve::Reinhard, gamma: Some(2.2) },
+    }
+}
+
+#[test]
+fn documents_read_back_as_they_were_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("scene.toml");
+    let mut docs = vec![everything(), SceneDoc::default()];
+    docs.extend(SCENES.iter().map(|s| parse(s.toml, s.name).unwrap()));
+    for doc in docs {
+        save(&path, &doc).unwrap();
+        assert_eq!(load(&path).unwrap(), doc, "{}", to_toml(&doc));
+    }
+}
+
+#[test]
+fn every_spectrum_form_is_understood() {
+    for (form, expected) in [
+        ("0.5", SpectrumDoc::Constant(0.5)),
+        ("1", SpectrumDoc::Constant(1.0)),
+        ("\"report-plume\"", SpectrumDoc::Preset("report-plume".into())),
+        ("{ rgb = [1, 0.5, 0.0] }", SpectrumDoc::Rgb([1.0, 0.5, 0.0])),
+    ] {
+        let doc = parse(&format!("majorant = 1\n[medium]\nextinction = {form}\n"), "x").unwrap();
+        assert_eq!(doc.medium.extinction, expected, "{form}");
+    }
+}
+
+/// Where each mistake stands, and a word of its message.
+#[test]
+fn mistakes_are_named_with_line_and_column() {
+    for (text, line, column, word) in [
+        ("majorant = 1\n[medium]\nalbdo = 0.9\n", 3, 1, "albdo"),
+        ("majorant = 1\n\n[medium]\n  scale = \"thick\"\n", 4, 11, "string"),
+        ("majorant = 1\n[camera\n", 2, 8, ""),
+        ("[medium]\nscale = 1.0\n", 1, 1, "majorant"),
+        ("majorant = 9\n", 1, 12, "format"),
+        ("majorant = 1\n[camera]\nfov_rad = 0.5\n", 3, 1, "fov_deg"),
+        ("majorant = 1\n[medium]\nscale = 1.0\nalbedo = 1.5\n", 4, 10, "medium.albedo"),
+        ("majorant = 1\n[medium]\nextinction = \"0.43:8, 0.54:40\"\n", 3, 14, "nanometres"),
+        ("majorant = 1\n[medium]\nextinction = \"430:8 540:40\"\n", 3, 14, "430:8"),
+        ("majorant = 1\n[medium]\nextinction = \"540:40, 430:8\"\n", 3, 14, "rise"),
+        ("majorant = 1\n[medium]\nextinction = \"purple\"\n", 3, 14, "purple"),
+        (
+            "majorant = 1\n[[lights]]\nkind = \"environment\"\n[[lights]]\nkind = \"sphere\"\ncenter = [0.0, 0.0, 0.0]\nradius = -1.0\n",
+            7,
+            10,
+            "lights[1].radius",
+        ),
+        (
+            "majorant = 1\n[[lights]]\nkind = \"sun\"\ntoward = [0.0, 1.0, 0.0]\ndiameter = 3.0\n",
+            5,
+            1,
+            "diameter",
+        ),
+        ("majorant = 1\n[[lights]]\nkind = \"lamp\"\n", 0, 0, "lamp"),
+        ("majorant = 1\n[film]\nwidth = 0\n", 3, 0, "film"),
+        ("majorant = 1\n[estimator]\nid = \"magic\"\n", 3, 6, "uni-nee-mis"),
+        ("majorant = 1\n[medium]\nscale = nan\n", 3, 9, "medium.scale"),
+    ] {
+        let message = parse(text, "scene.toml").unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+        let mut parts = message.split(':');
+        assert_eq!(parts.next(), Some("scene.toml"), "{message}");
+        let place: Vec<usize> = parts.take(2).map(|p| p.parse().unwrap()).collect();
+        if line > 0 {
+            assert_eq!(place[0], line, "{message}");
+        }
+        if column > 0 {
+            assert_eq!(place[1], column, "{message}");
+        }
+    }
+}
+
+#[test]
+fn overrides_reach_every_key() {
+    let doc = parse(SCENES[0].toml, "first-light").unwrap();
+    let set = |assignments: &[&str]| {
+        let owned: Vec<String> = assignments.iter().map(|s| (*s).to_owned()).collect();
+        override_keys(&doc, &owned)
+    };
+    let changed = set(&[
+        "medium.majorant.factor=2",
+        "lights.0.scale=3.5",
+        "estimator.id=nee",
+        "medium.phase={ kind = \"henyey-greenstein\", g = 0.5 }",
+        "medium.phase.g=0.7",
+        "estimator.max_depth=4",
+        "medium.extinction=430:1, 600:2",
+        "camera.origin.1=5",
+    ])
+    .unwrap();
+    assert_eq!(changed.medium.majorant.factor, 2.0);
+    assert_eq!(changed.medium.phase, PhaseDoc::HenyeyGreenstein { g: 0.7 });
+    assert_eq!(changed.estimator.id, "nee");
+    assert_eq!(changed.estimator.max_depth, Some(4));
+    assert_eq!(changed.camera.origin[1], 5.0);
+    assert!(matches!(&changed.medium.extinction, SpectrumDoc::Points { points, .. } if points.len() == 2));
+    let LightDoc::Rectangle { scale, .. } = &changed.lights[0] else { panic!("a rectangle") };
+    assert_eq!(*scale, 3.5);
+    for bad in
+        ["medium.majorant.fctor=2", "lights.9.scale=1", "medium", "medium.albedo=2", "camera.fov_deg=wide"]
+    {
+        let message = set(&[bad]).unwrap_err().to_string();
+        assert!(message.contains(bad), "{message}");
+    }
+}
