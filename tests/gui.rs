@@ -401,3 +401,40 @@ fn keys_and_gestures_are_listed() {
     click(&mut lab, Role::Button, "Close");
     assert!(lab.query_by_label("Orbit the camera").is_none());
 }
+
+#[test]
+fn a_frame_is_cheap_and_an_edit_never_waits() {
+    let mut lab = lab_on(Source::first());
+    for panel in PANELS {
+        open(&mut lab, panel.title());
+    }
+    let mut seconds = Vec::new();
+    for i in 0..60_u8 {
+        // Every frame edits: the session builds and cancels all the time.
+        lab.get_by_role_and_label(Role::SpinButton, "Majorant factor")
+            .set_value_accesskit(1.0 + 0.05 * f64::from(i));
+        lab.step();
+        seconds.push(lab.state().ui_seconds());
+    }
+    seconds.sort_by(f32::total_cmp);
+    let (median, worst) = (seconds[30], seconds[59]);
+    eprintln!("frame: median {:.2} ms, worst {:.2} ms", 1e3 * median, 1e3 * worst);
+    assert!(median < 0.025, "a frame takes {median} s");
+    assert!(worst < 0.25, "a frame waited {worst} s");
+    wait(&mut lab, "a picture after the last edit", |app| {
+        app.state().first_picture_seconds.is_some() && app.shown().is_some()
+    });
+    eprintln!("edit to first picture: {:?} s", lab.state().state().first_picture_seconds);
+}
+
+#[test]
+fn a_file_over_the_window_is_announced() {
+    let (mut lab, _directory) = lab();
+    for name in ["a.vdb", "a.toml", "a.exr", "a.txt"] {
+        lab.input_mut()
+            .hovered_files
+            .push(egui::HoveredFile { path: Some(name.into()), mime: String::new() });
+    }
+    lab.run_steps(2);
+    assert!(lab.state().messages().lines().is_empty());
+}

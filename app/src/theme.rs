@@ -110,7 +110,6 @@ pub fn install(ctx: &Context) {
 }
 
 /// The frame of a question or a list over the window.
-#[must_use]
 pub fn dialog_frame(style: &Style) -> egui::Frame {
     egui::Frame::window(style).inner_margin(Margin::same(20))
 }

@@ -152,3 +152,7 @@ impl<const N: usize> PathWeights<N> {
         self.balanced(radiance, 1.0)
     }
 }
+
+#[cfg(test)]
+#[path = "weights_tests.rs"]
+mod tests;
