@@ -1,8 +1,10 @@
 //! Bad input of every kind: an error that names file, place and cure, or a labelled repair; never a panic.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+use majorant_core::estimator::PathIndex;
 use majorant_core::io::{Library, picture, scene_file};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, SceneDoc, build};
+use majorant_core::transport::Wanted;
 use majorant_tests::render::frozen;
 use std::path::Path;
 
@@ -91,7 +93,8 @@ fn a_scene_without_light_is_black_and_says_so() {
     assert!(scene.notices[0].contains("No light"), "{:?}", scene.notices);
     for entry in majorant_core::estimator::REGISTRY {
         let settings = majorant_core::estimator::Settings::new(&doc.estimator, 0);
-        let rgb = (entry.kernel)(&scene, &settings, 480, 270, 0).rgb;
+        let rgb =
+            (entry.kernel)(&scene, &settings, PathIndex { x: 480, y: 270, sample: 0 }, Wanted::ALWAYS).rgb;
         assert_eq!(rgb.to_array(), [0.0; 3], "{}", entry.id);
     }
 }

@@ -148,3 +148,20 @@ fn a_scene_that_cannot_be_built_fails_and_the_session_lives_on() {
     session.submit(VIEW, Job { doc: Arc::new(doc(2, 1)), preview: true });
     wait(&session, &woken, |status, _| *status == Status::Finished);
 }
+
+/// Extinction 10⁶ with albedo 1: one path takes hours, and an edit must still be answered.
+#[test]
+fn an_endless_path_is_cancelled() {
+    let (session, woken) = session();
+    let mut endless = doc(2, 1);
+    endless.medium.density = majorant_core::scene::DensityDoc::Uniform;
+    endless.medium.extinction = majorant_core::spectrum::SpectrumDoc::Constant(1e6);
+    endless.medium.albedo = majorant_core::spectrum::SpectrumDoc::Constant(1.0);
+    (endless.camera.origin, endless.camera.target) = ([0.0; 3], [0.0, 0.0, -1.0]);
+    session.submit(VIEW, Job { doc: Arc::new(endless), preview: true });
+    while session.state(VIEW).status != Status::Rendering {
+        woken.recv_timeout(PATIENCE).expect("the session went silent");
+    }
+    session.submit(VIEW, Job { doc: Arc::new(doc(2, 1)), preview: true });
+    wait(&session, &woken, |status, _| *status == Status::Finished);
+}

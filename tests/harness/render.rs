@@ -1,10 +1,11 @@
 //! Renders scenes into batch means of pixel blocks.
 
 use crate::stats::{Comparison, mean_and_error};
-use majorant_core::estimator::{self, Kernel, Settings};
+use majorant_core::estimator::{self, Kernel, PathIndex, Settings};
 use majorant_core::io::volume::{Limits, read_volume};
 use majorant_core::io::{Library, scene_file};
 use majorant_core::scene::{Scene, SceneDoc, build};
+use majorant_core::transport::Wanted;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -100,7 +101,7 @@ fn block_means(
         for x in 0..scene.width {
             let block = (y * rows / scene.height * columns + x * columns / scene.width) as usize;
             for sample in samples.clone() {
-                let rgb = kernel(scene, settings, x, y, sample).rgb;
+                let rgb = kernel(scene, settings, PathIndex { x, y, sample }, Wanted::ALWAYS).rgb;
                 assert!(rgb.is_finite(), "pixel ({x}, {y}) sample {sample}: {rgb}");
                 counts[block] += 1;
                 for c in 0..3 {

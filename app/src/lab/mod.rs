@@ -14,6 +14,7 @@ mod command;
 mod dialogs;
 mod files;
 mod help;
+mod icon;
 mod logic;
 mod menu;
 mod messages;

@@ -76,7 +76,7 @@ fn native_options(options: &LabOptions, backend: Backend) -> eframe::NativeOptio
         .with_title("Majorant")
         .with_min_inner_size([800.0, 500.0])
         .with_drag_and_drop(true)
-        .with_icon(egui::IconData::default());
+        .with_icon(super::icon::icon());
     viewport = viewport.with_inner_size(options.window.unwrap_or([1440.0, 860.0]));
     // A picture of the window shall not depend on the last run.
     let fresh = options.screenshot.is_some();

@@ -106,6 +106,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Right click a number", "As opened, or its default"),
     ("Double click a plot", "Add a control point"),
     ("Right click a point, Delete", "Remove it"),
+    ("Ctrl + plus, minus, 0", "Size of the interface"),
 ];
 
 /// The keys of a command, as menus show them.

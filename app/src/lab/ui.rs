@@ -8,17 +8,18 @@ use super::{Command, LabApp, shortcuts};
 use crate::panels::Column;
 use crate::theme::Palette;
 use crate::view::canvas::{Shown, canvas_ui};
+use crate::widgets::badge;
 use egui::{
-    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, Label, LayerId, Margin, Order, Panel, Rect,
-    RichText, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2,
+    Align, Align2, CentralPanel, Color32, Context, FontId, Frame, Id, Label, LayerId, Layout, Margin, Order,
+    Panel, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2,
 };
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{SceneDoc, WhenExceeded};
 use majorant_core::session::Status;
 
 impl LabApp {
     /// Draws a frame; returns what it was asked for.
     pub(super) fn window_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
-        let mut commands = shortcuts::pressed(ui.ctx());
+        let mut commands = self.keys(ui.ctx());
         let mut draft = self.document.doc().clone();
         let palette = Palette::get(ui);
         let bar = |margin| Frame::NONE.fill(palette.bar).inner_margin(margin);
@@ -42,7 +43,8 @@ impl LabApp {
         }
         CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, &mut draft));
 
-        dialog_ui(ui.ctx(), &mut self.dialog, &self.document.doc().title.clone(), &mut commands);
+        let name = self.name();
+        dialog_ui(ui.ctx(), &mut self.dialog, &name, &mut commands);
         if self.shortcuts_open {
             help_ui(ui.ctx(), &mut commands);
         }
@@ -50,6 +52,15 @@ impl LabApp {
         // Commands of this frame were meant for the document as it was drawn, edits included.
         if draft != *self.document.doc() {
             commands.insert(0, Command::Edit(Box::new(draft)));
+        }
+        commands
+    }
+
+    /// Keys of this frame; what is open over the window keeps the others from it.
+    fn keys(&self, ctx: &Context) -> Vec<Command> {
+        let mut commands = shortcuts::pressed(ctx);
+        if self.dialog.is_some() || self.shortcuts_open {
+            commands.retain(|command| self.shortcuts_open && *command == Command::ToggleShortcuts);
         }
         commands
     }
@@ -85,8 +96,28 @@ impl LabApp {
         if let Some(camera) = outcome.camera {
             draft.camera = camera;
         }
+        self.remarks_ui(ui, outcome.rect);
         if let Some(text) = failure {
             failure_ui(ui, outcome.rect, &text, self.shown.is_some());
+        }
+    }
+}
+
+impl LabApp {
+    /// What has to be known about the picture to read it rightly, in its corner.
+    fn remarks_ui(&self, ui: &mut Ui, canvas: Rect) {
+        let palette = Palette::get(ui);
+        let majorant = &self.doc().medium.majorant;
+        let biased = majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp;
+        let coarse = self.shown.as_ref().is_some_and(|s| s.coarse.is_some());
+        let area = Rect::from_min_size(canvas.min + vec2(10.0, 10.0), vec2(canvas.width() - 20.0, 22.0));
+        let mut child =
+            ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
+        if biased {
+            badge(&mut child, palette.error, "biased: the majorant is clamped");
+        }
+        if coarse {
+            badge(&mut child, palette.accent, "preview");
         }
     }
 }

@@ -61,7 +61,8 @@ impl Panel for Camera {
 fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     row(ui, "Image size", "Pixels; the render starts over when they change", |ui, _| {
         let film = &mut cx.draft.film;
-        let width = (ui.available_width() - 86.0) * 0.5;
+        // A cross, the button and three gaps.
+        let width = ((ui.available_width() - 66.0) * 0.5).floor();
         let side = |ui: &mut Ui, value: &mut u32, name: &str| {
             let drag = DragValue::new(value)
                 .range(1..=16_384_u32)
@@ -73,7 +74,14 @@ fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         side(ui, &mut film.width, "Image width");
         ui.weak("×");
         side(ui, &mut film.height, "Image height");
+        let opened = &cx.opened.film;
         ui.menu_button("▼", |ui| {
+            let text = format!("As opened: {} × {}", opened.width, opened.height);
+            if ui.button(text).clicked() {
+                *film = opened.clone();
+                ui.close();
+            }
+            ui.separator();
             for [w, h] in SIZES.iter().copied() {
                 if ui.selectable_label([film.width, film.height] == [w, h], format!("{w} × {h}")).clicked() {
                     (film.width, film.height) = (w, h);

@@ -55,6 +55,7 @@ impl Panel for Majorant {
         });
         match verdict(majorant, Palette::get(ui)) {
             Some((colour, word, text)) => {
+                ui.add_space(crate::theme::UNIT);
                 ui.horizontal(|ui| {
                     badge(ui, colour, word);
                 });

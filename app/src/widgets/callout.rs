@@ -1,6 +1,6 @@
 //! Remarks in panels: quiet hints, callouts with a coloured edge, and badges.
 
-use crate::theme::UNIT;
+use crate::theme::{Palette, UNIT};
 use egui::{Color32, CornerRadius, Frame, Label, Margin, RichText, Stroke, Ui};
 
 /// A quiet paragraph.
@@ -28,7 +28,7 @@ pub fn callout(ui: &mut Ui, colour: Color32, text: &str) {
 pub fn badge(ui: &mut Ui, colour: Color32, text: &str) -> egui::Response {
     Frame::NONE
         .inner_margin(Margin::symmetric(6, 1))
-        .fill(colour.gamma_multiply(0.14))
+        .fill(Palette::get(ui).panel.lerp_to_gamma(colour, 0.14))
         .stroke(Stroke::new(1.0, colour.gamma_multiply(0.55)))
         .corner_radius(CornerRadius::same(8))
         .show(ui, |ui| ui.add(Label::new(RichText::new(text).small().color(colour)).selectable(false)))

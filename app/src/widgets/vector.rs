@@ -1,7 +1,8 @@
 //! Three coordinates in a row.
 
+use super::number::format_number;
 use super::row::row;
-use super::value::{drag, format_number, reset_button, reset_menu};
+use super::value::{drag, reset_button, reset_menu};
 use egui::Ui;
 
 /// A row with three numbers.

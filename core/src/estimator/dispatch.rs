@@ -6,11 +6,22 @@ use crate::math::Sampler;
 use crate::medium::{AnyMedium, Medium};
 use crate::scene::{EstimatorDoc, Mode, Scene};
 use crate::spectrum::{Components, RgbChannels, Wavelengths};
-use crate::transport::{PathSettings, Trace, World};
+use crate::transport::{PathSettings, Trace, Wanted, World};
 use glam::{Vec2, Vec3};
 
-/// Traces path number `sample` of pixel (x, y).
-pub type Kernel = fn(scene: &Scene, settings: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate;
+/// Which path of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PathIndex {
+    /// Column.
+    pub x: u32,
+    /// Row from the top.
+    pub y: u32,
+    /// Sample number within the pixel.
+    pub sample: u64,
+}
+
+/// Traces one path. The estimate of a path that is not wanted any more is meaningless.
+pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate;
 
 /// Everything besides the scene that an estimate depends on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,36 +53,45 @@ pub struct PathEstimate {
     /// Linear sRGB.
     pub rgb: Vec3,
     /// Evaluations of the medium's coefficients.
-    pub lookups: u32,
+    pub lookups: u64,
 }
 
 /// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels.
-pub(super) fn family<E: Estimator>(scene: &Scene, s: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate {
+pub(super) fn family<E: Estimator>(
+    scene: &Scene,
+    s: &Settings,
+    at: PathIndex,
+    wanted: Wanted<'_>,
+) -> PathEstimate {
     match s.mode {
-        Mode::Spectral => in_medium::<E, Wavelengths<4>, 4>(scene, s, x, y, sample),
-        Mode::Rgb => in_medium::<E, RgbChannels<3>, 3>(scene, s, x, y, sample),
+        Mode::Spectral => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, wanted),
+        Mode::Rgb => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, wanted),
     }
 }
 
 /// The kernel of an estimator that carries one component at a time.
-pub(super) fn single<E: Estimator>(scene: &Scene, s: &Settings, x: u32, y: u32, sample: u64) -> PathEstimate {
+pub(super) fn single<E: Estimator>(
+    scene: &Scene,
+    s: &Settings,
+    at: PathIndex,
+    wanted: Wanted<'_>,
+) -> PathEstimate {
     match s.mode {
-        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, x, y, sample),
-        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, x, y, sample),
+        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, wanted),
+        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, wanted),
     }
 }
 
 fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     scene: &Scene,
     s: &Settings,
-    x: u32,
-    y: u32,
-    sample: u64,
+    at: PathIndex,
+    wanted: Wanted<'_>,
 ) -> PathEstimate {
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
-        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, x, y, sample),
+        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
+        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
     }
 }
 
@@ -79,14 +99,13 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     medium: &M,
     scene: &Scene,
     settings: &Settings,
-    x: u32,
-    y: u32,
-    sample: u64,
+    at: PathIndex,
+    wanted: Wanted<'_>,
 ) -> PathEstimate {
-    let pixel = u64::from(y) * u64::from(scene.width) + u64::from(x);
-    let mut trace = Trace::new(Sampler::new(settings.seed, pixel, sample));
+    let pixel = u64::from(at.y) * u64::from(scene.width) + u64::from(at.x);
+    let mut trace = Trace::new(Sampler::new(settings.seed, pixel, at.sample), wanted);
     let jitter = trace.sampler.next_2d();
-    let ray = scene.camera.ray(Vec2::new(x as f32, y as f32) + jitter);
+    let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
     let components = C::sample(trace.sampler.next_1d());
     let world = World { scene, medium: medium.local(&components), components, settings: settings.path };
     let radiance = E::estimate(&world, ray, &mut trace);

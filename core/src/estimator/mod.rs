@@ -7,7 +7,7 @@ mod nee;
 mod spectral_mis;
 mod uni_nee_mis;
 
-pub use dispatch::{Kernel, PathEstimate, Settings};
+pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -61,6 +61,6 @@ pub trait Estimator {
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         ray: Ray,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
     ) -> Sampled<N>;
 }

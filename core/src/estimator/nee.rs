@@ -29,7 +29,7 @@ impl Estimator for Nee {
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
     ) -> Sampled<N> {
         let mut radiance = Sampled::ZERO;
         let mut path = PathWeights::CAMERA;

@@ -31,7 +31,7 @@ impl Estimator for UniNeeMis {
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
     ) -> Sampled<N> {
         let mut radiance = Sampled::ZERO;
         let mut path = PathWeights::CAMERA;

@@ -1,12 +1,13 @@
 //! The thread that owns the films and decides which view gets the next pass.
 
 use super::mailbox::{Command, Mailbox};
-use super::pass::{self, StillWanted};
+use super::pass::Work;
 use super::{Job, Status, ViewId, preview};
 use crate::estimator::{self, Kernel, Settings};
 use crate::film::{Film, Snapshot, Tally};
 use crate::io::Library;
 use crate::scene::{Scene, SceneDoc, build};
+use crate::transport::Wanted;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -16,8 +17,8 @@ use std::time::Instant;
 
 /// A pass lasts about this long, so that pausing and stepping answer soon.
 const PASS_SECONDS: f64 = 0.15;
-/// The first coarse picture has one path per block of this edge.
-const COARSE_STRIDE: usize = 8;
+/// The first coarse picture has about this many paths, one per block of pixels.
+const COARSE_PATHS: usize = 8192;
 /// A finer preview is worth it only if a whole pass would take longer than this.
 const FINE_PREVIEW_SECONDS: f64 = 0.2;
 
@@ -60,8 +61,13 @@ impl Active {
         }
     }
 
-    fn wanted(&self) -> StillWanted<'_> {
-        StillWanted { current: &self.current, generation: self.generation }
+    fn work(&self) -> Work<'_> {
+        Work {
+            scene: &self.scene,
+            kernel: self.kernel,
+            settings: &self.settings,
+            wanted: Wanted::new(&self.current, self.generation),
+        }
     }
 
     /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.
@@ -267,12 +273,11 @@ fn start(
 
 /// Publishes a coarse picture at once, and a finer one if the first whole pass is still far off.
 fn show_preview(id: ViewId, view: &Active, mailbox: &Mailbox) {
-    let mut stride = COARSE_STRIDE;
+    let blocks = view.film.pixels.len().div_ceil(COARSE_PATHS);
+    let mut stride = blocks.isqrt().max(4).next_power_of_two();
     loop {
         let began = Instant::now();
-        let image = view
-            .pool
-            .install(|| preview::render(&view.scene, view.kernel, &view.settings, stride, &view.wanted()));
+        let image = view.pool.install(|| preview::render(&view.work(), stride));
         let Some(image) = image else { return };
         let unknown = vec![[f32::INFINITY; 3]; image.len()];
         let snapshot = view.with_images(image, unknown, Some(stride as u32));
@@ -290,17 +295,11 @@ fn advance(view: &mut Active) -> bool {
     let count = view.next_samples();
     let began = Instant::now();
     let first = u64::from(view.spp);
-    let wanted = StillWanted { current: &view.current, generation: view.generation };
-    let cost = view.pool.install(|| {
-        pass::run(
-            &view.scene,
-            view.kernel,
-            &view.settings,
-            &mut view.film,
-            first..first + u64::from(count),
-            &wanted,
-        )
-    });
+    let samples = first..first + u64::from(count);
+    // The film is lent to the pass; a cancelled one is not worth having back.
+    let mut film = std::mem::replace(&mut view.film, Film::new(0, 0));
+    let cost = view.pool.install(|| view.work().add_samples(&mut film, &samples));
+    view.film = film;
     let Some(cost) = cost else { return false };
     view.spp += count;
     view.last_pass = count;

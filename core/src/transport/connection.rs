@@ -24,7 +24,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         &self,
         vertex: &Vertex,
         path: &PathWeights<N>,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
     ) -> Option<Connection<N>> {
         let lights = &self.scene.lights;
         let index = (trace.sampler.next_1d() * lights.len() as f32) as usize;

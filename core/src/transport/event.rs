@@ -62,7 +62,7 @@ impl<const N: usize> Collision<N> {
     }
 
     /// Draws the event from the hero's densities.
-    pub fn draw_event(&self, trace: &mut Trace) -> Event {
+    pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
         let u = trace.sampler.next_1d() * self.coefficients.majorant.hero();
         // Compared from the small end; an event of density zero is never drawn, even by rounding.
@@ -85,6 +85,7 @@ mod tests {
     use super::*;
     use crate::math::Sampler;
     use crate::medium::MajorantSegment;
+    use crate::transport::Wanted;
 
     fn collision(extinction: f32, albedo: f32, majorant: f32, absorption: Absorption) -> Collision<1> {
         let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: Sampled([majorant]), clamp_null: false };
@@ -102,7 +103,7 @@ mod tests {
                 let k = m / (t + null);
                 let scatter = if absorption == Absorption::Analogue { t * a } else { t } * k;
                 let expected = [null * k / m, scatter / m, 1.0 - (null * k + scatter) / m];
-                let mut trace = Trace::new(Sampler::new(1, 2, 3));
+                let mut trace = Trace::new(Sampler::new(1, 2, 3), Wanted::ALWAYS);
                 let n = 50_000;
                 let mut counts = [0u32; 3];
                 for _ in 0..n {

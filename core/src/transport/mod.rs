@@ -7,6 +7,7 @@ mod connection;
 mod event;
 mod vertex;
 mod walk;
+mod wanted;
 mod weights;
 mod world;
 
@@ -14,5 +15,6 @@ pub use connection::Connection;
 pub use event::{Collision, Event};
 pub use vertex::Vertex;
 pub use walk::Walk;
+pub use wanted::Wanted;
 pub use weights::PathWeights;
 pub use world::{Arrival, PathSettings, Trace, World};

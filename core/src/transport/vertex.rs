@@ -47,7 +47,7 @@ impl Vertex {
     pub fn leave<const N: usize>(
         &self,
         phase: &Phase,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
         weights: &mut PathWeights<N>,
     ) -> Ray {
         let u = trace.sampler.next_2d();

@@ -8,6 +8,9 @@ use crate::math::{Ray, UnitBox};
 use crate::medium::{LocalMedium, MajorantSegment};
 use crate::scene::{Absorption, Scene};
 
+/// Collisions between two questions whether the path is still wanted; an unwanted walk ends.
+const ASK_EVERY: u64 = 4096;
+
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
@@ -40,7 +43,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     #[inline]
     pub fn next_collision(
         &mut self,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
         weights: &mut PathWeights<N>,
     ) -> Option<Collision<N>> {
         self.segment?;
@@ -52,6 +55,9 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 weights.pass(segment.majorant, t - self.t);
                 self.t = t;
                 trace.lookups += 1;
+                if trace.lookups % ASK_EVERY == 0 && !trace.wanted.yes() {
+                    return None;
+                }
                 let coefficients = self.medium.coefficients(self.ray_in_medium.at(t), &segment);
                 return Some(Collision::new(self.ray_in_world.at(t), coefficients, self.absorption));
             }

@@ -1,6 +1,6 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Vertex, Walk};
+use super::{Vertex, Walk, Wanted};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
@@ -21,18 +21,20 @@ pub struct PathSettings {
 
 /// The random numbers of one path, and what it has cost.
 #[derive(Clone, Debug)]
-pub struct Trace {
+pub struct Trace<'a> {
     /// Random numbers.
     pub sampler: Sampler,
     /// Evaluations of the medium's coefficients.
-    pub lookups: u32,
+    pub lookups: u64,
+    /// Whether the path is still wanted.
+    pub wanted: Wanted<'a>,
 }
 
-impl Trace {
+impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
-    pub fn new(sampler: Sampler) -> Self {
-        Self { sampler, lookups: 0 }
+    pub fn new(sampler: Sampler, wanted: Wanted<'a>) -> Self {
+        Self { sampler, lookups: 0, wanted }
     }
 }
 
@@ -101,7 +103,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let point = ray.at(end.t());
         let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
         // Off the surface by more than the rounding of the point's own coordinates.
-        let lift = 2e-5 * (1.0 + point.abs().max_element() + end.t());
+        let lift = 1e-5 * (point.abs().max_element() + end.t());
         Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
     }
 
@@ -111,7 +113,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         &self,
         vertices: u32,
         weights: &mut super::PathWeights<N>,
-        trace: &mut Trace,
+        trace: &mut Trace<'_>,
     ) -> bool {
         if vertices < self.settings.roulette_depth {
             return true;

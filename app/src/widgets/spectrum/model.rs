@@ -43,12 +43,17 @@ fn sample(doc: &SpectrumDoc, lambda_nm: f32) -> f32 {
     }
 }
 
+/// Three significant digits: a converted spectrum is a starting point, not a measurement.
+fn short(value: f32) -> f32 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
 /// The spectrum as another kind, as close to what it was as that kind can be.
 #[must_use]
 pub fn converted(doc: &SpectrumDoc, to: Kind) -> SpectrumDoc {
     match to {
-        Kind::Constant => SpectrumDoc::Constant(sample(doc, 550.0)),
-        Kind::Rgb => SpectrumDoc::Rgb([610.0, 550.0, 465.0].map(|l| sample(doc, l))),
+        Kind::Constant => SpectrumDoc::Constant(short(sample(doc, 550.0))),
+        Kind::Rgb => SpectrumDoc::Rgb([610.0, 550.0, 465.0].map(|l| short(sample(doc, l)))),
         Kind::Points => {
             let (points, outside) = points_of(doc);
             SpectrumDoc::Points { points, outside }
@@ -61,8 +66,8 @@ pub fn converted(doc: &SpectrumDoc, to: Kind) -> SpectrumDoc {
 #[must_use]
 pub fn points_of(doc: &SpectrumDoc) -> (Vec<ControlPoint>, Outside) {
     doc.control_points().unwrap_or_else(|| {
-        let points =
-            [430.0, 540.0, 640.0].map(|lambda_nm| ControlPoint { lambda_nm, value: sample(doc, lambda_nm) });
+        let points = [430.0, 540.0, 640.0]
+            .map(|lambda_nm| ControlPoint { lambda_nm, value: short(sample(doc, lambda_nm)) });
         (points.to_vec(), Outside::Hold)
     })
 }

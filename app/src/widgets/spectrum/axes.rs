@@ -1,7 +1,7 @@
-//! Axes, curve and spectrum strip of the spectrum editor: painting and the maths of its axes.
+//! Axes, curve and strip of colours of a spectrum: painting, and the maths of the axes.
 
-use super::value::format_number;
 use crate::theme::Palette;
+use crate::widgets::number::format_number;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Rgba, Shape, Stroke, Ui, pos2, vec2};
 use majorant_core::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, wavelength_colour};
 
@@ -11,7 +11,7 @@ const TICKS: f32 = 15.0;
 
 /// The axes of a plot on the screen.
 #[derive(Clone, Copy, Debug)]
-pub struct Axes {
+pub(super) struct Axes {
     /// The plot's frame, without strip and ticks.
     pub frame: Rect,
     /// The value at its top.

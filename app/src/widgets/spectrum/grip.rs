@@ -1,0 +1,85 @@
+//! One control point on the plot: dragged, nudged by arrow keys, removed.
+
+use super::axes::Axes;
+use super::{SpectrumField, model};
+use crate::theme::Palette;
+use crate::widgets::number::format_number;
+use egui::{
+    CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
+};
+use majorant_core::spectrum::ControlPoint;
+
+/// Diameter of the area that takes hold of a point.
+const GRIP: f32 = 16.0;
+
+/// One point on the plot; returns whether it is being dragged.
+pub(super) fn grip_ui(
+    ui: &Ui,
+    field: &SpectrumField<'_>,
+    axes: &Axes,
+    id: Id,
+    points: &mut Vec<ControlPoint>,
+    index: usize,
+    at: &impl Fn(Pos2) -> ControlPoint,
+) -> bool {
+    let Some(point) = points.get(index).copied() else { return false };
+    let centre = axes.point(point.lambda_nm, point.value.min(axes.top));
+    let rect = Rect::from_center_size(centre, Vec2::splat(GRIP));
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    let name = format!("{} point {}", field.name, index + 1);
+    response.widget_info(|| WidgetInfo::slider(true, f64::from(point.value), &name));
+    let max = field.max.unwrap_or(f32::MAX);
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if response.dragged()
+        && let Some(p) = response.interact_pointer_pos()
+    {
+        let to = at(p);
+        let to = ControlPoint { value: to.value.min(axes.top), ..to };
+        model::shift(points, index, to, max);
+    }
+    let delete = response.has_focus()
+        && ui.input_mut(|i| {
+            i.consume_key(egui::Modifiers::NONE, Key::Delete)
+                || i.consume_key(egui::Modifiers::NONE, Key::Backspace)
+        });
+    if response.secondary_clicked() || delete {
+        model::remove(points, index);
+    } else if response.has_focus() {
+        nudge(ui, &response, axes, points, index, max);
+    }
+    paint_grip(ui, &response, centre);
+    let text = format!("{} nm: {}", format_number(point.lambda_nm.into()), format_number(point.value.into()));
+    let dragged = response.dragged();
+    response.on_hover_and_drag_cursor(CursorIcon::Move).on_hover_text(text);
+    dragged
+}
+
+/// Arrow keys move a focused point; Shift makes it ten times finer.
+fn nudge(ui: &Ui, response: &Response, axes: &Axes, points: &mut [ControlPoint], index: usize, max: f32) {
+    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|m| m.set_focus_lock_filter(response.id, filter));
+    let (step, pressed) = ui.input(|i| {
+        let step = if i.modifiers.shift { 0.1 } else { 1.0 };
+        let sign = |plus, minus| f32::from(i8::from(i.key_pressed(plus)) - i8::from(i.key_pressed(minus)));
+        (step, vec2(sign(Key::ArrowRight, Key::ArrowLeft), sign(Key::ArrowUp, Key::ArrowDown)))
+    });
+    if pressed != Vec2::ZERO
+        && let Some(point) = points.get(index).copied()
+    {
+        let to = ControlPoint {
+            lambda_nm: point.lambda_nm + pressed.x * step,
+            value: point.value + pressed.y * step * axes.top / 100.0,
+        };
+        model::shift(points, index, to, max);
+    }
+}
+
+fn paint_grip(ui: &Ui, response: &Response, centre: Pos2) {
+    let palette = Palette::get(ui);
+    let hot = response.hovered() || response.dragged();
+    let radius = if hot { 5.5 } else { 4.5 };
+    let fill = if hot || response.has_focus() { palette.accent } else { palette.well };
+    ui.painter().circle(centre, radius, fill, Stroke::new(1.6, palette.accent));
+}
