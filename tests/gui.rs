@@ -330,6 +330,24 @@ fn unsaved_changes_are_asked_about() {
 }
 
 #[test]
+fn saving_first_goes_on_with_what_was_asked() {
+    let (_, directory) = lab();
+    let mut lab = lab_on(Source::Embedded("furnace".into()));
+    lab.key_press(Key::E);
+    lab.run_steps(2);
+    lab.key_press_modifiers(Modifiers::COMMAND, Key::N);
+    lab.run_steps(3);
+    click(&mut lab, Role::Button, "Save");
+    let path = directory.path().join("mine.toml");
+    let field = lab.get_by_label("Path");
+    field.set_text_value_accesskit(&path.to_string_lossy());
+    lab.run_steps(3);
+    click(&mut lab, Role::Button, "Save");
+    assert!(path.exists());
+    assert_eq!(doc(&lab).title, SceneDoc::default().title);
+}
+
+#[test]
 fn a_scene_is_saved_and_loaded_again() {
     let (mut lab, directory) = lab();
     lab.get_by_role_and_label(Role::SpinButton, "Majorant factor").set_value_accesskit(3.0);

@@ -149,7 +149,7 @@ fn style(theme: Theme) -> Style {
     spacing.item_spacing = vec2(2.0 * UNIT, UNIT);
     spacing.button_padding = vec2(2.0 * UNIT, 3.0);
     spacing.interact_size = vec2(40.0, 22.0);
-    spacing.indent = 3.0 * UNIT;
+    spacing.indent = 4.0 * UNIT;
     spacing.menu_margin = Margin::same(6);
     spacing.window_margin = Margin::same(16);
     spacing.icon_width = 15.0;

@@ -143,8 +143,14 @@ impl LabApp {
             Ok(()) => {
                 self.settings.remember(&path);
                 self.messages.say(Severity::Done, format!("Saved {}.", path.display()));
+                if let Some(command) = self.after_save.take() {
+                    self.proceed(command);
+                }
             }
-            Err(problem) => self.messages.fail(problem),
+            Err(problem) => {
+                self.after_save = None;
+                self.messages.fail(problem);
+            }
         }
     }
 

@@ -37,6 +37,9 @@ impl LabApp {
         while let Some(outcome) = self.tasks.take() {
             self.finish(outcome);
         }
+        if let Some(left) = self.messages.expire() {
+            ctx.request_repaint_after(left);
+        }
         self.take_dropped_files(ctx);
         self.keep_history(ctx);
         self.guard_window(ctx);
@@ -133,7 +136,7 @@ impl LabApp {
                 self.dialog = None;
                 self.chosen(purpose, path);
             }
-            Command::CloseDialog => self.dialog = None,
+            Command::CloseDialog => (self.dialog, self.after_save) = (None, None),
             Command::Save => self.save_scene(),
             Command::TogglePause => {
                 let paused = self.state.status == Status::Paused;
@@ -165,7 +168,8 @@ impl LabApp {
         }
     }
 
-    fn proceed(&mut self, command: Command) {
+    /// Does it.
+    pub(super) fn proceed(&mut self, command: Command) {
         match command {
             Command::Open(source) => self.open(&source),
             Command::Quit => self.quitting = true,
@@ -179,11 +183,9 @@ impl LabApp {
             Answer::Cancel => {}
             Answer::Discard => self.proceed(*then),
             Answer::Save => {
+                // A scene without a file asks for one first.
+                self.after_save = Some(*then);
                 self.save_scene();
-                // Without a file of its own the scene is not saved yet: the path prompt is open now.
-                if !self.is_modified() {
-                    self.proceed(*then);
-                }
             }
         }
     }

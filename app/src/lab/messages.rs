@@ -1,8 +1,9 @@
-//! What the window has to say: lines above the status bar that stay until they are dismissed.
+//! What the window has to say: lines above the status bar. Errors stay until they are dismissed.
 
 use super::Command;
 use crate::theme::Palette;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
+use std::time::{Duration, Instant};
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,8 @@ pub struct Message {
     pub severity: Severity,
     /// What happened, with the file's name and the cure.
     pub text: String,
+    /// When it was said.
+    at: Instant,
 }
 
 /// The lines that are shown, oldest first.
@@ -34,16 +37,29 @@ pub struct Messages {
 impl Messages {
     /// No more than this many are kept.
     const CAPACITY: usize = 4;
+    /// How long a confirmation stays.
+    const CONFIRMED: Duration = Duration::from_secs(6);
 
     /// Adds a line; the same text is not repeated.
     pub fn say(&mut self, severity: Severity, text: impl Into<String>) {
         let text = text.into();
         self.lines.retain(|line| line.text != text && line.severity != Severity::Done);
-        self.lines.push(Message { number: self.next, severity, text });
+        self.lines.push(Message { number: self.next, severity, text, at: Instant::now() });
         self.next += 1;
         if self.lines.len() > Self::CAPACITY {
             self.lines.remove(0);
         }
+    }
+
+    /// Removes confirmations that have been read by now; returns how long the next one has left.
+    /// Errors stay until they are dismissed.
+    pub fn expire(&mut self) -> Option<Duration> {
+        let left = |line: &Message| match line.severity {
+            Severity::Done => Some(Self::CONFIRMED.saturating_sub(line.at.elapsed())),
+            Severity::Error => None,
+        };
+        self.lines.retain(|line| left(line) != Some(Duration::ZERO));
+        self.lines.iter().filter_map(left).min()
     }
 
     /// Adds an error.

@@ -75,6 +75,8 @@ pub struct LabApp {
     native_dialogs: bool,
     /// When the document was last edited, in egui's time.
     edited_at: f64,
+    /// What waits for the scene to be saved.
+    after_save: Option<Command>,
     quitting: bool,
     window_title: String,
     ui_seconds: f32,
@@ -123,6 +125,7 @@ impl LabApp {
             screenshot: options.screenshot.clone().map(|path| Screenshot::new(path, options.after_seconds)),
             native_dialogs: options.native_dialogs,
             edited_at: 0.0,
+            after_save: None,
             quitting: false,
             window_title: String::new(),
             ui_seconds: 0.0,

@@ -79,7 +79,10 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let stats = cx.stats;
     let optional = |value: Option<f64>| value.map_or_else(|| "–".into(), count);
     let limit = cx.draft.render.spp.map_or_else(String::new, |limit| format!(" / {limit}"));
-    let eta = stats.eta_seconds.map_or_else(|| "no limit".into(), duration);
+    let limits = &cx.draft.render;
+    let unlimited = limits.spp.is_none() && limits.seconds.is_none();
+    let unknown = if unlimited { "no limit" } else { "–" };
+    let eta = stats.eta_seconds.map_or_else(|| unknown.into(), duration);
     let figures = [
         ("Samples", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
         ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel and second"),
