@@ -123,13 +123,9 @@ fn pictures_that_are_missing_damaged_or_black() {
     exr::prelude::write_rgb_file(path("good.exr"), 4, 2, pixel).unwrap();
     let (_, repaired) = picture::read_panorama(&path("good.exr")).unwrap();
     assert_eq!(repaired, 2);
-    let mut doc = SceneDoc::default();
-    doc.lights = vec![LightDoc::EnvironmentMap {
-        file: "good.exr".into(),
-        rotate_deg: 30.0,
-        scale: 1.0,
-        visible: true,
-    }];
+    let map =
+        LightDoc::EnvironmentMap { file: "good.exr".into(), rotate_deg: 30.0, scale: 1.0, visible: true };
+    let doc = SceneDoc { lights: vec![map], ..SceneDoc::default() };
     frozen(&doc, folder.path());
 
     // Every truncation is an error, none a panic or an enormous allocation.

@@ -3,7 +3,8 @@
 use super::dialogs::{Dialog, PathPrompt};
 use super::{Command, LabApp, Purpose, Severity};
 use crate::model::Source;
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc, PlacementDoc};
+use crate::model::own_volume::{Look, with_volume};
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc};
 use std::path::{Path, PathBuf};
 
 /// What a file is, by its extension.
@@ -98,15 +99,16 @@ impl LabApp {
         path.strip_prefix(self.document.base()).unwrap_or(path).to_string_lossy().into_owned()
     }
 
-    /// A volume that can be read becomes the medium's density, fitted to the origin.
-    pub(super) fn fill_with(&mut self, path: &Path) {
-        let file = self.short_name(path);
-        let mut doc = self.doc().clone();
-        doc.medium.density = DensityDoc::Grid(GridRef { file, grid: None });
-        doc.medium.placement = PlacementDoc { fit: Some(1.0), ..PlacementDoc::default() };
+    /// A volume that can be read becomes the medium's density.
+    pub(super) fn fill_with(&mut self, path: &Path, look: &Look) {
+        let doc = with_volume(self.doc(), self.short_name(path), look);
+        let scale = doc.medium.scale;
         self.document.edit(doc);
-        self.messages
-            .say(Severity::Done, format!("{} fills the medium, fitted to length 1.", path.display()));
+        let name = path.display();
+        self.messages.say(
+            Severity::Done,
+            format!("{name} fills the medium: fitted to length 1, density scaled by {scale}."),
+        );
     }
 
     /// A panorama becomes the environment map, in place of the one that is there.

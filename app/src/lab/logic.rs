@@ -64,7 +64,7 @@ impl LabApp {
                 // The session says what is wrong with the file; here it has no names to offer.
                 self.grids.finish(file, Vec::new());
             }
-            Outcome::Volume(path, Ok(())) => self.fill_with(&path),
+            Outcome::Volume(path, Ok(look)) => self.fill_with(&path, &look),
             Outcome::Volume(_, Err(problem)) => self.messages.fail(problem),
             Outcome::Exported(path, Ok(())) => {
                 self.messages.say(Severity::Done, format!("Wrote {}.", path.display()));

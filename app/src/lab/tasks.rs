@@ -2,6 +2,7 @@
 //! Each runs on a named thread and answers with one [`Outcome`] that `logic` picks up.
 
 use super::Purpose;
+use crate::model::own_volume::{self, Look};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, volume};
 use majorant_core::scene::SceneDoc;
@@ -18,7 +19,7 @@ pub enum Outcome {
     /// The grids of a file, or what is wrong with it. The text is the name in the document.
     Listed(String, Result<Vec<String>, String>),
     /// A dropped or opened volume was looked into.
-    Volume(PathBuf, Result<(), String>),
+    Volume(PathBuf, Result<Look, String>),
     /// A picture was written.
     Exported(PathBuf, Result<(), String>),
 }
@@ -76,8 +77,8 @@ impl Tasks {
     /// When there is no thread to be had.
     pub fn look_into(&self, path: PathBuf) -> Result<(), String> {
         self.spawn("volume", move || {
-            let found = names(&path).map(|_| ());
-            Outcome::Volume(path, found)
+            let look = own_volume::look_into(&path);
+            Outcome::Volume(path, look)
         })
     }
 

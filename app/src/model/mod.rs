@@ -2,6 +2,7 @@
 
 mod document;
 mod history;
+pub mod own_volume;
 mod paths;
 mod settings;
 mod work;

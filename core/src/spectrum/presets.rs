@@ -1,5 +1,7 @@
 //! Spectra to start from, for extinction, albedo and light alike. One line adds one.
 
+use super::SpectrumDoc;
+
 /// A named spectrum.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
@@ -24,6 +26,46 @@ pub const PRESETS: &[Preset] = &[
         summary: "molecules: falls with the fourth power of the wavelength, 1 at 550 nm",
         points: "360:5.448, 400:3.574, 440:2.441, 480:1.724, 520:1.251, 550:1, 600:0.706, 660:0.482, 720:0.341, 780:0.247, 830:0.193",
     },
+    Preset {
+        id: "blue-smoke",
+        summary: "fine particles: falls with the wavelength to the power 2.5, 1 at 550 nm",
+        points: "360:2.88, 400:2.22, 440:1.75, 480:1.41, 520:1.15, 550:1, 600:0.805, 660:0.634, 720:0.51, 830:0.357",
+    },
+    Preset {
+        id: "whole-milk",
+        summary: "extinction of whole milk (reduced, use g = 0), 1 at 550 nm; Jensen et al. 2001, RGB read as 610, 550, 465 nm",
+        points: "465:1.178, 550:1, 610:0.7941",
+    },
+    Preset {
+        id: "skim-milk",
+        summary: "extinction of skim milk (reduced, use g = 0), 1 at 550 nm; Jensen et al. 2001, RGB read as 610, 550, 465 nm",
+        points: "465:1.566, 550:1, 610:0.5738",
+    },
+    Preset {
+        id: "whole-milk-albedo",
+        summary: "albedo of whole milk; Jensen et al. 2001",
+        points: "465:0.9963, 550:0.99925, 610:0.99957",
+    },
+    Preset {
+        id: "skim-milk-albedo",
+        summary: "albedo of skim milk; Jensen et al. 2001",
+        points: "465:0.99258, 550:0.99796, 610:0.998",
+    },
+    Preset {
+        id: "amber-albedo",
+        summary: "an invented albedo: brown smoke that glows amber where it is thick",
+        points: "400:0.45, 450:0.58, 500:0.72, 550:0.84, 600:0.92, 650:0.96, 700:0.975",
+    },
+    Preset {
+        id: "rose-albedo",
+        summary: "an invented albedo: absorbs green a little, thick parts turn rose",
+        points: "400:0.95, 450:0.93, 500:0.86, 540:0.8, 570:0.86, 600:0.97, 700:0.99",
+    },
+    Preset {
+        id: "tungsten",
+        summary: "light of an incandescent lamp (CIE illuminant A), 1 at 560 nm",
+        points: "360:0.06145, 400:0.1471, 450:0.3309, 500:0.5986, 560:1, 620:1.436, 680:1.854, 750:2.27, 830:2.616",
+    },
 ];
 
 /// The preset with this id.
@@ -32,8 +74,34 @@ pub fn find(id: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|p| p.id == id)
 }
 
+/// The presets whose values are all at most `max`: what a quantity that is so bounded can use.
+pub fn within(max: f32) -> impl Iterator<Item = &'static Preset> {
+    PRESETS.iter().filter(move |p| {
+        SpectrumDoc::parse_points(p.points).is_ok_and(|points| points.iter().all(|p| p.value <= max))
+    })
+}
+
 /// Every id, for messages.
 #[must_use]
 pub fn ids() -> Vec<&'static str> {
     PRESETS.iter().map(|p| p.id).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_a_spectrum_and_has_a_name_of_its_own() {
+        for preset in PRESETS {
+            assert!(SpectrumDoc::parse_points(preset.points).is_ok(), "{}", preset.id);
+            assert_eq!(PRESETS.iter().filter(|p| p.id == preset.id).count(), 1);
+        }
+        let albedos: Vec<_> = within(1.0).map(|p| p.id).collect();
+        assert!(
+            albedos.contains(&"grey")
+                && albedos.contains(&"skim-milk-albedo")
+                && !albedos.contains(&"rayleigh")
+        );
+    }
 }

@@ -55,7 +55,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 weights.pass(segment.majorant, t - self.t);
                 self.t = t;
                 trace.lookups += 1;
-                if trace.lookups % ASK_EVERY == 0 && !trace.wanted.yes() {
+                if trace.lookups.is_multiple_of(ASK_EVERY) && !trace.wanted.yes() {
                     return None;
                 }
                 let coefficients = self.medium.coefficients(self.ray_in_medium.at(t), &segment);

@@ -78,7 +78,7 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         });
         let button = Button::new("Presets").min_size(vec2(ui.available_width(), 0.0));
         let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
-            for preset in presets::PRESETS {
+            for preset in presets::within(field.max.unwrap_or(f32::INFINITY)) {
                 let chosen = *doc == SpectrumDoc::Preset(preset.id.into());
                 if ui.selectable_label(chosen, preset.id).on_hover_text(preset.summary).clicked() {
                     *doc = SpectrumDoc::Preset(preset.id.into());

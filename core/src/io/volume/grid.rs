@@ -81,6 +81,32 @@ impl VoxelGrid {
         sum / self.values.len().max(1) as f64
     }
 
+    /// The largest sum of values along any grid line, over axes and channels: the thickest line's
+    /// optical thickness, per unit of extinction and voxel edge.
+    pub fn thickest_line(&self) -> f32 {
+        let [nx, ny, nz] = self.size;
+        let mut thickest = 0.0f32;
+        for channel in 0..self.channels {
+            let value =
+                |x: usize, y: usize, z: usize| self.values[((z * ny + y) * nx + x) * self.channels + channel];
+            let (mut along_y, mut along_z) = (vec![0.0f32; nx * nz], vec![0.0f32; nx * ny]);
+            for z in 0..nz {
+                for y in 0..ny {
+                    let mut along_x = 0.0;
+                    for x in 0..nx {
+                        let v = value(x, y, z);
+                        along_x += v;
+                        along_y[z * nx + x] += v;
+                        along_z[y * nx + x] += v;
+                    }
+                    thickest = thickest.max(along_x);
+                }
+            }
+            thickest = along_y.into_iter().chain(along_z).fold(thickest, f32::max);
+        }
+        thickest
+    }
+
     /// World coordinates of the box that the voxels fill: two opposite corners in index space,
     /// each mapped to world. Axis-aligned only where `world_from_index` is.
     pub fn world_corners(&self) -> (DVec3, DVec3) {
@@ -162,6 +188,13 @@ mod tests {
         assert_eq!(grid.values, [0.0, 1.0, 0.0, -2.0]);
         assert_eq!(grid.min_max(), Some((-2.0, 1.0)));
         assert_eq!(grid.index_bbox(), [10, 20, 30, 11, 20, 31]);
+    }
+
+    #[test]
+    fn thickest_line_is_found_along_any_axis() {
+        // Two voxels along x, two along z.
+        let grid = grid(vec![1.0, 0.5, 2.0, 0.25]);
+        assert_eq!(grid.thickest_line(), 3.0);
     }
 
     #[test]

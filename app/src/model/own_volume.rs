@@ -1,0 +1,145 @@
+//! What becomes of a scene when its volume is replaced by a person's own.
+
+use majorant_core::io::volume::{Limits, VoxelGrid, read_volume, validate_density};
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
+use majorant_core::spectrum::{Quantity, Spectrum};
+use std::path::Path;
+
+/// The thickest line through a volume that was just opened gets this optical thickness at the
+/// wavelength of the strongest extinction: opaque, and still deep enough to look into.
+const OPTICAL_THICKNESS: f32 = 12.0;
+
+/// What has to be known of a volume to set a scene up for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    channels: usize,
+    /// Edge lengths, the longest being 1.
+    edges: [f32; 3],
+    /// Density integrated along the thickest grid line, in units of the longest edge.
+    thickest: f32,
+}
+
+/// Reads a volume as the renderer will, to be sure that it can be, and measures it.
+///
+/// # Errors
+/// What is wrong with the file, and the cure.
+pub fn look_into(path: &Path) -> Result<Look, String> {
+    let grid = read_volume(path, None, &Limits::default()).map_err(|e| e.to_string())?;
+    validate_density(&grid, path).map_err(|e| e.to_string())?;
+    Ok(measure(&grid))
+}
+
+fn measure(grid: &VoxelGrid) -> Look {
+    let size = grid.size.map(|n| n as f32);
+    let longest = size.into_iter().fold(1.0, f32::max);
+    Look {
+        channels: grid.channels,
+        edges: size.map(|n| n / longest),
+        thickest: grid.thickest_line() / longest,
+    }
+}
+
+/// The scene with its density replaced by a file: fitted to length 1 about the origin, scaled to be
+/// neither invisible nor black, with camera and lights in the same arrangement about it as before.
+#[must_use]
+pub fn with_volume(doc: &SceneDoc, file: String, look: &Look) -> SceneDoc {
+    let mut doc = doc.clone();
+    doc.title = Path::new(&file).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    doc.note = String::new();
+    let grid = GridRef { file, grid: None };
+    doc.medium = MediumDoc {
+        density: if look.channels == 3 { DensityDoc::RgbGrid(grid) } else { DensityDoc::Grid(grid) },
+        placement: PlacementDoc { fit: Some(1.0), ..PlacementDoc::default() },
+        albedo_grid: None,
+        ..doc.medium
+    };
+    let strongest = match look.channels {
+        3 => 1.0,
+        _ => Spectrum::new(&doc.medium.extinction, Quantity::Coefficient).max_over_wavelengths(),
+    };
+    let thickness = strongest * look.thickest;
+    if thickness > 0.0 {
+        doc.medium.scale = two_digits(OPTICAL_THICKNESS / thickness).min(1e6);
+    }
+    move_about_origin(&mut doc);
+    frame(&mut doc, look.edges);
+    doc
+}
+
+/// Moves camera and lights so that what the camera looked at is the origin.
+fn move_about_origin(doc: &mut SceneDoc) {
+    let target = doc.camera.target;
+    let moved = |p: &mut [f32; 3]| p.iter_mut().zip(target).for_each(|(p, t)| *p -= t);
+    for light in &mut doc.lights {
+        match light {
+            LightDoc::Rectangle { center, target, .. } => {
+                moved(center);
+                moved(target);
+            }
+            LightDoc::Sphere { center, .. } => moved(center),
+            LightDoc::Sun { .. } | LightDoc::Environment { .. } | LightDoc::EnvironmentMap { .. } => {}
+        }
+    }
+    moved(&mut doc.camera.origin);
+    moved(&mut doc.camera.target);
+}
+
+/// Moves the camera along its line of sight until the box about fills the picture: three quarters of
+/// the sphere around it do, as the corners of volumes are mostly empty.
+fn frame(doc: &mut SceneDoc, edges: [f32; 3]) {
+    let radius = 0.75 * 0.5 * edges.iter().map(|e| e * e).sum::<f32>().sqrt();
+    let aspect = doc.film.height as f32 / doc.film.width.max(1) as f32;
+    let half_width = (0.5 * doc.camera.fov_deg.to_radians()).tan();
+    let half_angle = (half_width * aspect.min(1.0)).atan();
+    let distance = radius / half_angle.sin();
+    let length = doc.camera.origin.iter().map(|x| x * x).sum::<f32>().sqrt();
+    if length > 0.0 {
+        doc.camera.origin = doc.camera.origin.map(|x| x * distance / length);
+    }
+}
+
+/// A number that reads well.
+fn two_digits(x: f32) -> f32 {
+    let unit = 10f32.powf(x.log10().floor() - 1.0);
+    (x / unit).round() * unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LOOK: Look = Look { channels: 1, edges: [1.0, 0.5, 0.5], thickest: 0.3 };
+
+    #[test]
+    fn the_volume_is_fitted_scaled_and_framed() {
+        let mut doc = SceneDoc::default();
+        doc.camera.target = [1.0, 2.0, 0.0];
+        doc.camera.origin = [1.0, 2.0, 30.0];
+        doc.lights = vec![LightDoc::Sphere {
+            center: [1.0, 3.0, 0.0],
+            radius: 0.1,
+            radiance: majorant_core::spectrum::SpectrumDoc::Constant(1.0),
+            scale: 1.0,
+            visible: true,
+        }];
+        let filled = with_volume(&doc, "a.vdb".into(), &LOOK);
+        assert_eq!(filled.medium.placement.fit, Some(1.0));
+        // Extinction 4, thickest line 0.3: 12 / 1.2.
+        assert!((filled.medium.scale - 10.0).abs() < 1e-3);
+        assert_eq!(filled.camera.target, [0.0; 3]);
+        assert!(
+            filled.camera.origin[0] == 0.0 && filled.camera.origin[2] > 1.0 && filled.camera.origin[2] < 10.0
+        );
+        assert!(matches!(filled.lights[0], LightDoc::Sphere { center: [0.0, 1.0, 0.0], .. }));
+        assert!(majorant_core::scene::validate(&filled).is_empty());
+    }
+
+    #[test]
+    fn an_empty_volume_keeps_the_scale() {
+        let empty = Look { thickest: 0.0, ..LOOK };
+        assert_eq!(with_volume(&SceneDoc::default(), "a.vdb".into(), &empty).medium.scale, 1.0);
+        let colour = Look { channels: 3, ..LOOK };
+        let filled = with_volume(&SceneDoc::default(), "a.vol".into(), &colour);
+        assert!(matches!(filled.medium.density, DensityDoc::RgbGrid(_)));
+    }
+}
