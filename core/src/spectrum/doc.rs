@@ -1,12 +1,4 @@
 //! A spectrum as a person writes it: one number, control points, a colour or a preset's name.
-//!
-//! | in a scene file | meaning |
-//! | --- | --- |
-//! | `0.99` | the same value at every wavelength |
-//! | `"430:8, 540:40, 572:8"` | control points, `wavelength in nm : value`, linear between |
-//! | `"rayleigh"` | a preset by its id, see [`super::presets`] |
-//! | `{ points = "430:8, 540:40", outside = "zero" }` | points that are zero beyond their ends (default `hold`) |
-//! | `{ rgb = [0.9, 0.5, 0.2] }` | linear sRGB |
 
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -34,7 +26,15 @@ pub struct ControlPoint {
     pub value: f32,
 }
 
-/// An editable spectrum; see the [module](self) for its written forms.
+/// An editable spectrum.
+///
+/// | in a scene file | meaning |
+/// | --- | --- |
+/// | `0.99` | the same value at every wavelength |
+/// | `"430:8, 540:40, 572:8"` | control points, `wavelength in nm : value`, linear between |
+/// | `"rayleigh"` | a preset by its id, see [`crate::spectrum::presets`] |
+/// | `{ points = "430:8, 540:40", outside = "zero" }` | points that are zero beyond their ends (default `hold`) |
+/// | `{ rgb = [0.9, 0.5, 0.2] }` | linear sRGB |
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpectrumDoc {
     /// One value at every wavelength.
