@@ -152,6 +152,9 @@ fn absurd_scenes_are_refused_by_name() {
         ("[medium.phase]\nkind = \"henyey-greenstein\"\ng = 1.0", "medium.phase.g"),
         ("[medium.placement]\nfit = 0.0", "fit"),
         ("[camera]\norigin = [0.0, 0.0, 0.0]", "camera.target"),
+        ("[camera]\norigin = [0.0, 0.0, 1e-30]", "camera.target"),
+        ("[camera]\norigin = [0.0, 0.0, 1e30]", "camera.origin"),
+        ("[render]\nseed = 9223372036854775808", ""),
         ("[camera]\nfov_deg = 180.0", "fov_deg"),
         ("[[lights]]\nkind = \"environment-map\"\nfile = \"\"", "file"),
         ("[[objects]]\nkind = \"ground\"\nnormal = [0.0, 0.0, 0.0]", "normal"),
@@ -160,6 +163,14 @@ fn absurd_scenes_are_refused_by_name() {
             scene_file::parse(&format!("majorant = 1\n{text}\n"), "s.toml").unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     }
+    // Deeper than positions can resolve: a walk would never end.
+    let mut deep = SceneDoc::default();
+    deep.medium.scale = 1e6;
+    let message = build(&deep, &mut Library::default()).unwrap_err().to_string();
+    assert!(message.contains("medium.scale") && message.contains("mean free paths"), "{message}");
+    let mut tiny = SceneDoc::default();
+    tiny.medium.placement.scale = [1e-11; 3];
+    assert!(build(&tiny, &mut Library::default()).is_ok());
     let mut flat = SceneDoc::default();
     flat.medium.placement.scale = [1.0, 0.0, 1.0];
     let message = build(&flat, &mut Library::default()).unwrap_err().to_string();

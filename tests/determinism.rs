@@ -149,19 +149,90 @@ fn a_scene_that_cannot_be_built_fails_and_the_session_lives_on() {
     wait(&session, &woken, |status, _| *status == Status::Finished);
 }
 
-/// Extinction 10⁶ with albedo 1: one path takes hours, and an edit must still be answered.
-#[test]
-fn an_endless_path_is_cancelled() {
-    let (session, woken) = session();
-    let mut endless = doc(2, 1);
-    endless.medium.density = majorant_core::scene::DensityDoc::Uniform;
-    endless.medium.extinction = majorant_core::spectrum::SpectrumDoc::Constant(1e6);
-    endless.medium.albedo = majorant_core::spectrum::SpectrumDoc::Constant(1.0);
-    (endless.camera.origin, endless.camera.target) = ([0.0; 3], [0.0, 0.0, -1.0]);
-    session.submit(VIEW, Job { doc: Arc::new(endless), preview: true });
+/// Submits a scene in which one path takes hours and waits until it renders.
+fn submit_endless(session: &Session, woken: &Receiver<()>, endless: SceneDoc) {
+    session.submit(VIEW, Job { doc: Arc::new(endless), preview: false });
     while session.state(VIEW).status != Status::Rendering {
+        if let Status::Failed(message) = session.state(VIEW).status {
+            panic!("{message}");
+        }
         woken.recv_timeout(PATIENCE).expect("the session went silent");
     }
-    session.submit(VIEW, Job { doc: Arc::new(doc(2, 1)), preview: true });
-    wait(&session, &woken, |status, _| *status == Status::Finished);
+}
+
+fn endless_scenes() -> Vec<SceneDoc> {
+    let parse = |text: &str| {
+        let mut doc = scene_file::parse(text, "endless").unwrap();
+        doc.render.threads = Some(2);
+        doc
+    };
+    vec![
+        // Half a million mean free paths of albedo 1, the camera in the middle.
+        parse(
+            "majorant = 1
+            [camera]
+            origin = [0.0, 0.0, 0.0]
+            target = [0.0, 0.0, -1.0]
+            [film]
+            width = 61
+            height = 37
+            [medium]
+            extinction = 250000.0
+            albedo = 1.0
+            [[lights]]
+            kind = \"environment\"",
+        ),
+        // A closed white room without any medium: no collision is ever looked up.
+        parse(
+            "majorant = 1
+            [camera]
+            origin = [0.0, 0.0, 0.0]
+            target = [0.0, 0.0, -1.0]
+            [film]
+            width = 61
+            height = 37
+            [medium]
+            extinction = 0.0
+            [[lights]]
+            kind = \"environment\"
+            [[objects]]
+            kind = \"box\"
+            center = [0.0, 0.0, 0.0]
+            size = [3.0, 3.0, 3.0]
+            albedo = 1.0",
+        ),
+    ]
+}
+
+#[test]
+fn endless_paths_are_cancelled_by_an_edit_and_by_closing() {
+    for endless in endless_scenes() {
+        for id in ["nee", "uni-nee-mis", "independent"] {
+            let (session, woken) = session();
+            let mut endless = endless.clone();
+            endless.estimator.id = id.into();
+            submit_endless(&session, &woken, endless.clone());
+            session.submit(VIEW, Job { doc: Arc::new(doc(2, 1)), preview: true });
+            wait(&session, &woken, |status, _| *status == Status::Finished);
+            submit_endless(&session, &woken, endless);
+            // Dropping the session joins its threads.
+        }
+    }
+}
+
+#[test]
+fn a_paused_view_stays_paused_through_edits_and_failures() {
+    let (session, woken) = session();
+    session.set_paused(VIEW, true);
+    session.submit(VIEW, Job { doc: Arc::new(doc(2, 9)), preview: true });
+    let mut broken = doc(2, 9);
+    broken.estimator.id = "none".into();
+    session.submit(VIEW, Job { doc: Arc::new(broken), preview: true });
+    for spp in [9, 8] {
+        let generation = session.submit(VIEW, Job { doc: Arc::new(doc(2, spp)), preview: true });
+        session.step(VIEW);
+        wait(&session, &woken, |status, s| {
+            *status == Status::Paused && s.is_some_and(|s| s.generation == generation && s.spp == 1)
+        });
+    }
 }

@@ -118,6 +118,14 @@ fn mistakes_are_named_with_line_and_column() {
         ("majorant = 1\n[film]\nwidth = 0\n", 3, 0, "film"),
         ("majorant = 1\n[estimator]\nid = \"magic\"\n", 3, 6, "uni-nee-mis"),
         ("majorant = 1\n[medium]\nscale = nan\n", 3, 9, "medium.scale"),
+        ("majorant = 1\n[medium.phase]\nkind = \"isotropic\"\ng = 0.9\n", 4, 1, "`g`"),
+        ("majorant = 1\n[medium.density]\nkind = \"uniform\"\nscale = 3\n", 4, 1, "`scale`"),
+        (
+            "majorant = 1\n[[lights]]\nkind = \"environment\"\nscale = 2.0\nradiance = -3.0\n",
+            5,
+            12,
+            "lights[0].radiance",
+        ),
     ] {
         let message = parse(text, "scene.toml").unwrap_err().to_string();
         assert!(message.contains(word), "{message}");

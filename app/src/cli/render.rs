@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     /// Samples per pixel.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     spp: Option<u32>,
-    /// Stop after this many seconds.
+    /// Stop after this many seconds, at the end of a pass; every pixel gets at least one sample.
     #[arg(long, value_name = "S")]
     seconds: Option<f32>,
     /// Image size in pixels.

@@ -64,7 +64,7 @@ impl Panel for Density {
 fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let density = &mut cx.draft.medium.density;
     let mut kind = match density {
-        DensityDoc::Uniform => Kind::Uniform,
+        DensityDoc::Uniform {} => Kind::Uniform,
         DensityDoc::Grid(_) => Kind::Grid,
         DensityDoc::RgbGrid(_) => Kind::Rgb,
     };
@@ -77,7 +77,7 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         if segmented(ui, "Density source", &mut kind, &options) {
             let grid = density.grid().cloned().unwrap_or_default();
             *density = match kind {
-                Kind::Uniform => DensityDoc::Uniform,
+                Kind::Uniform => DensityDoc::Uniform {},
                 Kind::Grid => DensityDoc::Grid(grid),
                 Kind::Rgb => DensityDoc::RgbGrid(grid),
             };

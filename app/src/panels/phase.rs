@@ -23,10 +23,10 @@ enum Kind {
 
 fn kind(doc: PhaseDoc) -> Kind {
     match doc {
-        PhaseDoc::Isotropic => Kind::Isotropic,
+        PhaseDoc::Isotropic {} => Kind::Isotropic,
         PhaseDoc::HenyeyGreenstein { .. } => Kind::HenyeyGreenstein,
         PhaseDoc::TwoLobe { .. } => Kind::TwoLobe,
-        PhaseDoc::Rayleigh => Kind::Rayleigh,
+        PhaseDoc::Rayleigh {} => Kind::Rayleigh,
     }
 }
 
@@ -42,10 +42,10 @@ impl Panel for PhaseFunction {
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
         match cx.draft.medium.phase {
-            PhaseDoc::Isotropic => "isotropic".into(),
+            PhaseDoc::Isotropic {} => "isotropic".into(),
             PhaseDoc::HenyeyGreenstein { g } => format!("g = {g}"),
             PhaseDoc::TwoLobe { g_forward, g_backward, .. } => format!("g = {g_forward}, {g_backward}"),
-            PhaseDoc::Rayleigh => "Rayleigh".into(),
+            PhaseDoc::Rayleigh {} => "Rayleigh".into(),
         }
     }
 
@@ -60,10 +60,10 @@ impl Panel for PhaseFunction {
         ];
         if segmented(ui, "Phase function", &mut chosen, &options) {
             *phase = match chosen {
-                Kind::Isotropic => PhaseDoc::Isotropic,
+                Kind::Isotropic => PhaseDoc::Isotropic {},
                 Kind::HenyeyGreenstein => PhaseDoc::HenyeyGreenstein { g: 0.5 },
                 Kind::TwoLobe => PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.7 },
-                Kind::Rayleigh => PhaseDoc::Rayleigh,
+                Kind::Rayleigh => PhaseDoc::Rayleigh {},
             };
         }
         parameters_ui(ui, phase, cx.opened.medium.phase);
@@ -84,7 +84,7 @@ impl Panel for PhaseFunction {
 fn parameters_ui(ui: &mut Ui, phase: &mut PhaseDoc, opened: PhaseDoc) {
     let mean = "Mean cosine of the scattering angle, −1 to 1; positive is forward";
     match phase {
-        PhaseDoc::Isotropic | PhaseDoc::Rayleigh => {}
+        PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
         PhaseDoc::HenyeyGreenstein { g } => {
             let before = if let PhaseDoc::HenyeyGreenstein { g } = opened { g } else { *g };
             let value = Value::new("g", g, 0.5).opened(before).range(-G_MAX..=G_MAX).speed(0.005);

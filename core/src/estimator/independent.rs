@@ -64,9 +64,7 @@ impl Estimator for Independent {
             };
 
             vertices += 1;
-            if vertices >= world.settings.max_depth
-                || path.is_dark()
-                || !world.survives_roulette(vertices, &mut path, trace)
+            if !world.goes_on(vertices, &path, trace) || !world.survives_roulette(vertices, &mut path, trace)
             {
                 return radiance;
             }

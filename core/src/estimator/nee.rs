@@ -67,7 +67,7 @@ impl Estimator for Nee {
             };
 
             vertices += 1;
-            if vertices >= world.settings.max_depth || path.is_dark() {
+            if !world.goes_on(vertices, &path, trace) {
                 return radiance;
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {

@@ -56,7 +56,8 @@ impl DisplayTransform {
         if linear.iter().any(|x| !x.is_finite()) {
             return [255, 0, 255];
         }
-        let exposed = linear.map(|x| (x * self.exposure).max(0.0));
+        // Bounded, so that no curve divides infinity by infinity.
+        let exposed = linear.map(|x| (x * self.exposure).clamp(0.0, 1e15));
         self.toned(exposed).map(|x| {
             let x = x.clamp(0.0, 1.0);
             let encoded = match self.inverse_gamma {
@@ -101,6 +102,14 @@ mod tests {
         assert_eq!(t.encode([f32::NAN, 0.0, 0.0]), [255, 0, 255]);
         let brighter = DisplayTransform::new(&ViewDoc { exposure_ev: 1.0, ..view });
         assert_eq!(brighter.encode([0.108; 3]), [128; 3]);
+    }
+
+    #[test]
+    fn the_brightest_is_white_under_every_curve() {
+        for tone in [ToneCurve::Linear, ToneCurve::Reinhard, ToneCurve::Filmic] {
+            let t = DisplayTransform::new(&ViewDoc { tone, gamma: None, exposure_ev: 64.0 });
+            assert_eq!(t.encode([1e30; 3]), [255; 3]);
+        }
     }
 
     #[test]

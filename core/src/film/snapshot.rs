@@ -80,7 +80,11 @@ impl Snapshot {
     pub fn images(film: &Film) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
         film.pixels
             .iter()
-            .map(|p| (p.mean.map(|x| x as f32), p.variance_of_mean().map(|v| v.sqrt() as f32)))
+            .map(|p| {
+                // A pixel all of whose samples were rejected has no value; it shows as one.
+                let mean = if p.count == 0 { [f32::NAN; 3] } else { p.mean.map(|x| x as f32) };
+                (mean, p.variance_of_mean().map(|v| v.sqrt() as f32))
+            })
             .unzip()
     }
 

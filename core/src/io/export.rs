@@ -64,6 +64,7 @@ pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
         "paths": snapshot.tally.paths,
         "lookups": snapshot.tally.lookups,
         "non_finite": snapshot.tally.non_finite,
+        "non_finite_at": snapshot.tally.located.iter().map(|n| json!([n.x, n.y, n.sample])).collect::<Vec<_>>(),
     })
 }
 

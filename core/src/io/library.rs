@@ -4,7 +4,7 @@ use super::volume::{self, Limits, SampleConvention, VoxelGrid};
 use super::{embedded, picture};
 use crate::light::Panorama;
 use crate::medium::{Grid, Lattice};
-use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources};
+use crate::scene::{GridRef, LightDoc, PlacedGrid, ResourceError, Resources, SceneDoc};
 use glam::{Affine3A, DAffine3, DVec3};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ pub struct Library {
     limits: Limits,
     scalar: HashMap<Key, PlacedGrid<1>>,
     rgb: HashMap<Key, PlacedGrid<3>>,
-    panoramas: HashMap<Key, Arc<Panorama>>,
+    panoramas: HashMap<Key, (Arc<Panorama>, Vec<String>)>,
 }
 
 /// Files of one kind that are kept; a student flips between a few clouds.
@@ -41,9 +41,15 @@ impl Library {
         self
     }
 
-    /// Resolves relative names against `base` from now on.
-    pub fn set_base(&mut self, base: impl Into<PathBuf>) {
-        self.base = base.into();
+    /// When the files that a document names were last written: a scene is out of date once they change.
+    #[must_use]
+    pub fn stamps(&self, doc: &SceneDoc) -> Vec<Option<SystemTime>> {
+        let grids = doc.medium.density.grid().into_iter().chain(&doc.medium.albedo_grid).map(|g| &g.file);
+        let pictures = doc.lights.iter().filter_map(|light| match light {
+            LightDoc::EnvironmentMap { file, .. } => Some(file),
+            _ => None,
+        });
+        grids.chain(pictures).map(|file| self.key(file, None).modified).collect()
     }
 
     fn key(&self, file: &str, grid: Option<&String>) -> Key {
@@ -125,7 +131,9 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
     let placed = voxels.world_from_index * index_from_unit;
     let object_from_unit =
         Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
-    Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, notices })
+    // The reader gives `.npy` arrays a box of its own choice.
+    let says_where = path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy"));
+    Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, says_where, notices })
 }
 
 fn pad<const C: usize>(
@@ -166,15 +174,22 @@ impl Resources for Library {
         Ok(placed)
     }
 
-    fn panorama(&mut self, file: &str) -> Result<Arc<Panorama>, ResourceError> {
+    fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError> {
         let key = self.key(file, None);
         if let Some(kept) = self.panoramas.get(&key) {
-            return Ok(Arc::clone(kept));
+            return Ok(kept.clone());
         }
-        let (panorama, _repaired) =
+        let (panorama, repaired) =
             picture::read_panorama(&key.path).map_err(|e| ResourceError(e.to_string()))?;
-        let panorama = Arc::new(panorama);
-        keep(&mut self.panoramas, key, Arc::clone(&panorama));
-        Ok(panorama)
+        let mut notices = Vec::new();
+        if repaired > 0 {
+            notices.push(format!(
+                "{}: {repaired} pixels that were negative, NaN or infinite were set to 0.",
+                key.path.display()
+            ));
+        }
+        let read = (Arc::new(panorama), notices);
+        keep(&mut self.panoramas, key, read.clone());
+        Ok(read)
     }
 }

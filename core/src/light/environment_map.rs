@@ -1,14 +1,19 @@
 //! Radiance by direction from an equirectangular picture, sampled in proportion to it.
 //!
-//! The top row is +y, the middle column −z, and x grows to the right of it. Texels are constant, so the
-//! density is exactly proportional to what is emitted: a texel is drawn with its luminance times its
-//! solid angle, and a direction uniformly over the texel's solid angle.
+//! The top row is +y, the middle column −z, and x grows to the right of it. Texels are constant, so that
+//! sampling in proportion to luminance is exact: a texel is drawn by its luminance times its solid angle,
+//! then a direction uniformly over it. One direction in twenty is drawn uniformly over the sphere
+//! instead, so that no texel is too faint beside a bright one to be drawn at all.
 
 use super::{Emitter, LightSample};
+use crate::math::{INV_4PI, uniform_direction};
 use crate::spectrum::{Components, Sampled};
 use glam::{Vec2, Vec3};
-use std::f32::consts::{PI, TAU};
+use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
+
+/// Share of directions that are drawn uniformly over the sphere.
+const UNIFORM: f32 = 0.05;
 
 /// A picture prepared for sampling; shared by every edit that does not change the file.
 #[derive(Debug)]
@@ -17,10 +22,12 @@ pub struct Panorama {
     height: usize,
     /// Linear sRGB, finite and not negative.
     texels: Vec<[f32; 3]>,
-    /// Cumulative probability of the rows, `height + 1` entries from 0 to 1.
-    rows: Vec<f32>,
-    /// Cumulative probability along each row, `width + 1` entries from 0 to 1.
-    columns: Vec<f32>,
+    /// ∫ luminance over the sphere.
+    total: f64,
+    /// ∫ luminance over the rows above, `height + 1` entries from 0 to `total`.
+    rows: Vec<f64>,
+    /// Σ luminance of the texels to the left, `width + 1` entries a row.
+    columns: Vec<f64>,
 }
 
 impl Panorama {
@@ -34,53 +41,44 @@ impl Panorama {
         let mut columns = Vec::with_capacity((width + 1) * height);
         for (y, row) in texels.chunks_exact(width).enumerate() {
             let mut sum = 0.0f64;
-            let start = columns.len();
-            columns.push(0.0f64);
+            columns.push(sum);
             for texel in row {
-                sum += f64::from(luminance(*texel));
+                sum += luminance(*texel);
                 columns.push(sum);
             }
-            for c in &mut columns[start..] {
-                *c = if sum > 0.0 { *c / sum } else { 0.0 };
-            }
-            rows.push(rows[y] + sum * f64::from(band(y, height)));
+            rows.push(rows[y] + sum * band(y, height) * TAU / width as f64);
         }
         let total = rows[height];
-        if total <= 0.0 || !total.is_finite() {
-            return None;
+        (total > 0.0 && total.is_finite()).then_some(Self { width, height, texels, total, rows, columns })
+    }
+
+    /// Density of a direction, per steradian.
+    fn density(&self, d: Vec3) -> f32 {
+        let bright = luminance(self.texel(d)) / self.total;
+        UNIFORM * INV_4PI + (1.0 - UNIFORM) * bright as f32
+    }
+
+    /// The texel in a direction.
+    fn texel(&self, d: Vec3) -> [f32; 3] {
+        let u = 0.5 + d.x.atan2(-d.z) / TAU as f32;
+        let v = d.y.clamp(-1.0, 1.0).acos() / PI as f32;
+        let x = ((u * self.width as f32) as usize).min(self.width - 1);
+        let y = ((v * self.height as f32) as usize).min(self.height - 1);
+        self.texels[y * self.width + x]
+    }
+
+    /// Draws a direction.
+    fn sample(&self, u: Vec2) -> Vec3 {
+        if u.x < UNIFORM {
+            return uniform_direction(Vec2::new(u.x / UNIFORM, u.y));
         }
-        let rows = rows.iter().map(|r| (r / total) as f32).collect();
-        let columns = columns.iter().map(|c| *c as f32).collect();
-        Some(Self { width, height, texels, rows, columns })
-    }
-
-    fn column(&self, y: usize) -> &[f32] {
-        &self.columns[y * (self.width + 1)..(y + 1) * (self.width + 1)]
-    }
-
-    /// Density per steradian over a texel.
-    fn density(&self, x: usize, y: usize) -> f32 {
-        let columns = self.column(y);
-        let probability = (self.rows[y + 1] - self.rows[y]) * (columns[x + 1] - columns[x]);
-        probability * self.width as f32 / (TAU * band(y, self.height))
-    }
-
-    fn texel_at(&self, d: Vec3) -> (usize, usize) {
-        let u = 0.5 + d.x.atan2(-d.z) / TAU;
-        let v = d.y.clamp(-1.0, 1.0).acos() / PI;
-        (
-            ((u * self.width as f32) as usize).min(self.width - 1),
-            ((v * self.height as f32) as usize).min(self.height - 1),
-        )
-    }
-
-    fn sample(&self, u: Vec2) -> (Vec3, f32) {
-        let (y, v) = invert(&self.rows, u.x);
-        let (x, s) = invert(self.column(y), u.y);
-        let phi = TAU * ((x as f32 + s) / self.width as f32 - 0.5);
+        let (y, v) = invert(&self.rows, f64::from((u.x - UNIFORM) / (1.0 - UNIFORM)));
+        let row = &self.columns[y * (self.width + 1)..(y + 1) * (self.width + 1)];
+        let (x, s) = invert(row, f64::from(u.y));
+        let phi = TAU * ((x as f64 + s) / self.width as f64 - 0.5);
         let cos = cos_edge(y, self.height) - v * band(y, self.height);
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        (Vec3::new(sin * phi.sin(), cos, -sin * phi.cos()), self.density(x, y))
+        Vec3::new((sin * phi.sin()) as f32, cos as f32, (-sin * phi.cos()) as f32)
     }
 }
 
@@ -103,44 +101,44 @@ impl EnvironmentMap {
 }
 
 impl Emitter for EnvironmentMap {
-    fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
-        let (direction, density) = self.panorama.sample(u);
-        (density > 0.0).then(|| LightSample {
-            direction: self.turned(direction, self.rotate),
-            distance: f32::INFINITY,
-            density,
-        })
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
+        let direction = self.turned(self.panorama.sample(u), self.rotate);
+        // Of the direction as rounded: on a texel's border it may belong to the neighbour.
+        let density = self.density(from, direction, f32::INFINITY);
+        Some(LightSample { direction, distance: f32::INFINITY, density })
     }
 
     fn density(&self, _from: Vec3, direction: Vec3, _distance: f32) -> f32 {
-        let (x, y) = self.panorama.texel_at(self.turned(direction, -self.rotate));
-        self.panorama.density(x, y)
+        self.panorama.density(self.turned(direction, -self.rotate))
     }
 
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
-        let (x, y) = self.panorama.texel_at(self.turned(direction, -self.rotate));
-        let texel = self.panorama.texels[y * self.panorama.width + x];
+        let texel = self.panorama.texel(self.turned(direction, -self.rotate));
         components.upsample_radiance(Vec3::from(texel) * self.scale)
     }
 }
 
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
+fn luminance([r, g, b]: [f32; 3]) -> f64 {
+    0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
 }
 
 /// cos θ at the upper edge of row `y`.
-fn cos_edge(y: usize, height: usize) -> f32 {
-    (PI * y as f32 / height as f32).cos()
+fn cos_edge(y: usize, height: usize) -> f64 {
+    (PI * y as f64 / height as f64).cos()
 }
 
-/// Difference of cos θ across row `y`: its solid angle divided by 2π.
-fn band(y: usize, height: usize) -> f32 {
-    cos_edge(y, height) - cos_edge(y + 1, height)
+/// Difference of cos θ across row `y`, its solid angle divided by 2π, as a product that does not cancel
+/// at the poles.
+fn band(y: usize, height: usize) -> f64 {
+    let step = PI / height as f64;
+    2.0 * ((y as f64 + 0.5) * step).sin() * (0.5 * step).sin()
 }
 
-/// The step of a cumulative table that holds `u`, and where in it.
-fn invert(cumulative: &[f32], u: f32) -> (usize, f32) {
-    let i = cumulative.partition_point(|c| *c <= u).saturating_sub(1).min(cumulative.len() - 2);
+/// The step of a rising table that holds the share `u` of its last entry, and where in the step.
+fn invert(cumulative: &[f64], u: f64) -> (usize, f64) {
+    let last = cumulative.len() - 1;
+    let target = u * cumulative[last];
+    let i = cumulative.partition_point(|c| *c <= target).saturating_sub(1).min(last - 1);
     let width = cumulative[i + 1] - cumulative[i];
-    (i, if width > 0.0 { ((u - cumulative[i]) / width).min(1.0) } else { 0.5 })
+    (i, if width > 0.0 { ((target - cumulative[i]) / width).min(1.0) } else { 0.5 })
 }

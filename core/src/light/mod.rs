@@ -38,7 +38,7 @@ pub trait Emitter {
     /// `distance`.
     fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32;
 
-    /// Radiance that arrives from `direction`, which reaches the light.
+    /// Radiance that arrives from `direction`, which reaches the light's emitting side.
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N>;
 }
 

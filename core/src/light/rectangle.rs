@@ -33,11 +33,7 @@ impl Emitter for RectangleLight {
         if cosine <= 0.0 { 0.0 } else { distance * distance / (self.shape.area * cosine) }
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
-        if direction.dot(self.shape.normal) < 0.0 {
-            components.evaluate(&self.radiance)
-        } else {
-            Sampled::ZERO
-        }
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
+        components.evaluate(&self.radiance)
     }
 }

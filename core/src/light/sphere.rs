@@ -1,7 +1,7 @@
 //! A sphere that emits outwards. Sampled uniformly over the cone that it fills.
 
 use super::{Emitter, LightSample};
-use crate::math::Frame;
+use crate::math::{Frame, PolarAngle};
 use crate::spectrum::{Components, Sampled, Spectrum};
 use crate::surface::Sphere;
 use glam::{Vec2, Vec3};
@@ -29,8 +29,8 @@ impl Emitter for SphereLight {
         let to_center = self.shape.center - from;
         let distance2 = to_center.length_squared();
         let cap = self.one_minus_cos_max(distance2)?;
-        let one_minus_cos = u.x * cap;
-        let direction = Frame::about(to_center / distance2.sqrt()).polar(one_minus_cos, TAU * u.y);
+        let theta = PolarAngle::from_one_minus_cos(u.x * cap);
+        let direction = Frame::about(to_center / distance2.sqrt()).polar(theta, TAU * u.y);
         // Distance to the near side: foot of the centre on the ray, less half a chord.
         let along = to_center.dot(direction);
         let off_axis2 = (to_center - direction * along).length_squared();

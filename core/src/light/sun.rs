@@ -1,7 +1,7 @@
 //! A distant disc: constant radiance from every direction within a small angle of one.
 
 use super::{Emitter, LightSample};
-use crate::math::Frame;
+use crate::math::{Frame, PolarAngle};
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
@@ -32,14 +32,14 @@ impl Sun {
     /// Whether the disc lies in this direction.
     #[must_use]
     pub fn covers(&self, direction: Vec3) -> bool {
-        // |a − b|²/2 = 1 − cos, which a dot product would round away at this size.
-        0.5 * (direction - self.toward).length_squared() < self.one_minus_cos_max
+        PolarAngle::between(direction, self.toward).one_minus_cos < self.one_minus_cos_max
     }
 }
 
 impl Emitter for Sun {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
-        let direction = Frame::about(self.toward).polar(u.x * self.one_minus_cos_max, TAU * u.y);
+        let theta = PolarAngle::from_one_minus_cos(u.x * self.one_minus_cos_max);
+        let direction = Frame::about(self.toward).polar(theta, TAU * u.y);
         Some(LightSample {
             direction,
             distance: f32::INFINITY,

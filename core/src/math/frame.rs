@@ -1,5 +1,6 @@
 //! An orthonormal frame about a direction.
 
+use super::PolarAngle;
 use glam::Vec3;
 
 /// Right-handed orthonormal axes whose third is a given unit vector.
@@ -30,14 +31,12 @@ impl Frame {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    /// The unit vector at angle θ from `z`, from 1 − cos θ and the azimuth in radians.
-    ///
-    /// Takes 1 − cos θ because it keeps its digits for the sharp lobes of strongly forward scattering.
+    /// The unit vector at an angle from `z`, at an azimuth in radians.
     #[must_use]
-    pub fn polar(&self, one_minus_cos: f32, phi: f32) -> Vec3 {
-        let sin_theta = (one_minus_cos * (2.0 - one_minus_cos)).max(0.0).sqrt();
+    pub fn polar(&self, theta: PolarAngle, phi: f32) -> Vec3 {
         let (sin_phi, cos_phi) = phi.sin_cos();
-        self.to_world(Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, 1.0 - one_minus_cos)).normalize()
+        let sin = theta.sin();
+        self.to_world(Vec3::new(sin * cos_phi, sin * sin_phi, theta.cos())).normalize()
     }
 }
 

@@ -1,10 +1,12 @@
 //! Geometry and randomness that nothing else in the crate is below of.
 
 mod frame;
+mod polar;
 mod ray;
 mod sampler;
 
 pub use frame::Frame;
+pub use polar::PolarAngle;
 pub use ray::{Ray, UnitBox};
 pub use sampler::Sampler;
 

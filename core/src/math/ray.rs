@@ -31,7 +31,6 @@ impl UnitBox {
         let inverse = ray.direction.recip();
         let a = -ray.origin * inverse;
         let b = (Vec3::ONE - ray.origin) * inverse;
-        // A ray in a face's plane gives 0·∞ = NaN there; `max`/`min` then keep the other operand.
         let (near, far) = (a.min(b), a.max(b));
         let mut t0 = 0.0f32;
         let mut t1 = f32::INFINITY;
@@ -46,7 +45,8 @@ impl UnitBox {
                 return None;
             }
         }
-        (t0 < t1).then_some((t0, t1))
+        // Rays with a coordinate that is not a number would otherwise slip through every comparison.
+        (t0 < t1 && ray.origin.is_finite() && ray.direction.is_finite()).then_some((t0, t1))
     }
 }
 

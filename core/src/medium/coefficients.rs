@@ -3,7 +3,7 @@
 use super::MajorantSegment;
 use crate::spectrum::Sampled;
 
-/// μa, μs, μn and μ̄ at a point, per component and scene unit; μ̄ = μa + μs + μn unless clamped.
+/// μa, μs, μn and μ̄ at a point, per component and scene unit; μ̄ = μa + μs + μn.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients<const N: usize> {
     /// Absorption coefficient μa.
@@ -18,14 +18,15 @@ pub struct Coefficients<const N: usize> {
 
 impl<const N: usize> Coefficients<N> {
     /// From extinction μt and albedo, under the segment's majorant and its rule for where that is
-    /// exceeded.
+    /// exceeded. Clamped, the medium is cut off at the majorant: the null coefficient stops at zero and
+    /// real collisions happen as often as collisions are drawn.
     #[must_use]
-    pub fn new(extinction: Sampled<N>, albedo: Sampled<N>, segment: &MajorantSegment<N>) -> Self {
-        let scattering = extinction * albedo;
-        let mut null = segment.majorant - extinction;
+    pub fn new(mut extinction: Sampled<N>, albedo: Sampled<N>, segment: &MajorantSegment<N>) -> Self {
         if segment.clamp_null {
-            null = null.map(|n| n.max(0.0));
+            extinction = extinction.zip(segment.majorant, f32::min);
         }
+        let scattering = extinction * albedo;
+        let null = segment.majorant - extinction;
         Self { absorption: extinction - scattering, scattering, null, majorant: segment.majorant }
     }
 

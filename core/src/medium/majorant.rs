@@ -25,10 +25,12 @@ impl Default for MajorantDoc {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WhenExceeded {
-    /// The null coefficient turns negative; unbiased, with more variance.
+    /// The null coefficient turns negative; unbiased, but the variance grows exponentially with the
+    /// optical depth by which the majorant is exceeded.
     #[default]
     Weighted,
-    /// The null coefficient is clamped at zero: **biased**, the textbook mistake.
+    /// The null coefficient is clamped at zero, which cuts the medium off at the majorant: **biased**,
+    /// the textbook mistake.
     Clamp,
 }
 
@@ -65,8 +67,7 @@ impl MajorantPolicy {
     pub fn global<const N: usize, C: Components<N>>(&self, components: &C, bound: &Spectrum) -> Sampled<N> {
         if self.shared {
             // In RGB mode the wavelengths are the three channels.
-            let max = bound.max_over_wavelengths().max(bound.rgb().max_element());
-            Sampled::splat(max * self.factor)
+            Sampled::splat(bound.largest() * self.factor)
         } else {
             components.evaluate(bound) * self.factor
         }

@@ -7,7 +7,7 @@
 use super::{Coefficients, Grid, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
 use crate::math::Ray;
 use crate::spectrum::{Components, Quantity, Sampled, Spectrum, SpectrumDoc};
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
 /// Where extinction comes from.
@@ -26,8 +26,8 @@ pub enum ExtinctionField {
 pub enum AlbedoField {
     /// albedo(λ) everywhere.
     Uniform(Spectrum),
-    /// rgb(x).
-    Rgb(Arc<Grid<3>>),
+    /// rgb(x), looked up through a map from the medium's unit cube to the grid's own.
+    Rgb(Arc<Grid<3>>, Affine3A),
 }
 
 /// A medium in which extinction, albedo or both come from RGB grids.
@@ -83,7 +83,7 @@ impl Medium for RgbGrids {
         };
         let albedo = match &self.albedo {
             AlbedoField::Uniform(s) => components.evaluate(s),
-            AlbedoField::Rgb(_) => Sampled::ONE,
+            AlbedoField::Rgb(..) => Sampled::ONE,
         };
         LocalRgbGrids {
             medium: self,
@@ -109,7 +109,9 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         };
         let albedo = match &self.medium.albedo {
             AlbedoField::Uniform(_) => self.albedo,
-            AlbedoField::Rgb(grid) => self.upsample(grid.at(point)),
+            AlbedoField::Rgb(grid, grid_from_unit) => {
+                self.upsample(grid.at(grid_from_unit.transform_point3(point)))
+            }
         };
         Coefficients::new(extinction, albedo, majorant)
     }

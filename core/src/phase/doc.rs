@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+// Variants without parameters are written with braces: serde then refuses unknown keys in them too.
+
 /// Phase function, by the cosine between the directions of propagation before and after.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PhaseDoc {
     /// The same in every direction.
-    #[default]
-    Isotropic,
+    Isotropic {},
     /// One Henyey–Greenstein lobe.
     HenyeyGreenstein {
         /// Mean cosine, −1 to 1 exclusive; positive is forward.
@@ -24,5 +25,11 @@ pub enum PhaseDoc {
         forward: f32,
     },
     /// Molecules.
-    Rayleigh,
+    Rayleigh {},
+}
+
+impl Default for PhaseDoc {
+    fn default() -> Self {
+        Self::Isotropic {}
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::Lobe;
 use super::henyey_greenstein::HenyeyGreenstein;
+use crate::math::PolarAngle;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TwoLobe {
@@ -12,12 +13,12 @@ pub(super) struct TwoLobe {
 }
 
 impl Lobe for TwoLobe {
-    fn value(&self, one_minus_cos: f32) -> f32 {
-        self.share * self.first.value(one_minus_cos) + (1.0 - self.share) * self.second.value(one_minus_cos)
+    fn value(&self, theta: PolarAngle) -> f32 {
+        self.share * self.first.value(theta) + (1.0 - self.share) * self.second.value(theta)
     }
 
     /// Picks a lobe, then uses what is left of the number in it.
-    fn sample(&self, u: f32) -> f32 {
+    fn sample(&self, u: f32) -> PolarAngle {
         if u < self.share {
             self.first.sample(u / self.share)
         } else {

@@ -2,7 +2,7 @@
 
 use super::{
     Camera, DensityDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc, SceneError,
-    SceneInfo, placement, validate,
+    SceneInfo, WhenExceeded, placement, validate,
 };
 use crate::light::{
     Environment, EnvironmentMap, Light, LightKind, Panorama, RectangleLight, SphereLight, Sun,
@@ -23,6 +23,8 @@ pub struct PlacedGrid<const C: usize> {
     pub grid: Arc<Grid<C>>,
     /// Takes the unit cube to the box that the file says.
     pub object_from_unit: Affine3A,
+    /// Whether the file says where its box stands, as OpenVDB and `.vol` do and `.npy` does not.
+    pub says_where: bool,
     /// What reading repaired, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
 }
@@ -46,11 +48,11 @@ pub trait Resources {
     /// As for [`Self::scalar_grid`].
     fn rgb_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<3>, ResourceError>;
 
-    /// A picture of the surroundings.
+    /// A picture of the surroundings, and what reading it repaired.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
-    fn panorama(&mut self, file: &str) -> Result<Arc<Panorama>, ResourceError>;
+    fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError>;
 }
 
 /// Freezes a document. Spectra, lights and surfaces are rebuilt every time, which takes microseconds;
@@ -65,19 +67,23 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
     let mut notices = Vec::new();
     let (medium, object_from_unit, mut info) = build_medium(&doc.medium, resources, &mut notices)?;
     let world_from_unit = placement::world_from_unit(&doc.medium.placement, object_from_unit);
-    if world_from_unit.matrix3.determinant().abs() < 1e-30 || !world_from_unit.is_finite() {
+    // Relative to its edges: a tiny box is as good as a large one, a flat one is not.
+    let m = world_from_unit.matrix3;
+    let edges = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
+    if !world_from_unit.inverse().is_finite() || m.determinant().abs() <= 1e-6 * edges {
         return Err(SceneError::Invalid(Problem {
             path: "medium.placement".into(),
             message: "the box has no volume: give every scale a value other than 0".into(),
         }));
     }
     let (lo, hi) = placement::bounds(&world_from_unit);
+    check_optical_depth(&doc.medium, info.majorant * (hi - lo).length(), &mut notices)?;
     (info.world_min, info.world_max) = (lo.to_array(), hi.to_array());
 
     let mut surfaces = Vec::new();
     let mut lights = Vec::new();
     for (index, light) in doc.lights.iter().enumerate() {
-        let built = build_light(light, resources)
+        let built = build_light(light, resources, &mut notices)
             .map_err(|source| SceneError::Resource { path: format!("lights[{index}]"), source })?;
         let shape = match &built {
             LightKind::Rectangle(l) => Some(Shape::Rectangle(l.shape)),
@@ -106,6 +112,30 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
     })
 }
 
+/// The largest optical depth of a box, by the majorant. Beyond it free flights are shorter than the
+/// rounding of positions, and a walk would no longer advance.
+const MAX_OPTICAL_DEPTH: f32 = 1e6;
+
+fn check_optical_depth(doc: &MediumDoc, depth: f32, notices: &mut Vec<String>) -> Result<(), SceneError> {
+    if depth.is_nan() || depth > MAX_OPTICAL_DEPTH {
+        return Err(SceneError::Invalid(Problem {
+            path: "medium.scale".into(),
+            message: format!(
+                "the box is {depth:.1e} mean free paths deep by its majorant; at most {MAX_OPTICAL_DEPTH:.0e} can be \
+                 resolved: lower the scale, the extinction or the majorant's factor"
+            ),
+        }));
+    }
+    let excess = depth * (1.0 / doc.majorant.factor - 1.0);
+    if doc.majorant.when_exceeded == WhenExceeded::Weighted && excess > 4.0 {
+        notices.push(format!(
+            "The majorant is exceeded by up to {excess:.0} mean free paths: still unbiased, but the variance grows \
+             exponentially with that number. Raise the majorant's factor towards 1."
+        ));
+    }
+    Ok(())
+}
+
 fn coefficient(doc: &SpectrumDoc) -> Spectrum {
     Spectrum::new(doc, Quantity::Coefficient)
 }
@@ -124,14 +154,17 @@ fn build_medium(
     let sigma = coefficient(&doc.extinction).scaled(doc.scale);
     let mut info = SceneInfo { max_density: 1.0, mean_density: 1.0, ..SceneInfo::default() };
 
+    // The unit cube's place in the file's own space, if the file says one.
     let mut placed = centred;
+    let mut density_box = None;
     let extinction = match &doc.density {
-        DensityDoc::Uniform => ExtinctionField::Uniform(sigma),
+        DensityDoc::Uniform {} => ExtinctionField::Uniform(sigma),
         DensityDoc::Grid(grid) => {
             let read = resources.scalar_grid(grid).map_err(at("medium.density"))?;
             describe(&mut info, &read.grid);
             notices.extend(read.notices);
             placed = read.object_from_unit;
+            density_box = read.says_where.then_some(placed);
             ExtinctionField::Density(read.grid, sigma)
         }
         DensityDoc::RgbGrid(grid) => {
@@ -139,6 +172,7 @@ fn build_medium(
             describe(&mut info, &read.grid);
             notices.extend(read.notices);
             placed = read.object_from_unit;
+            density_box = read.says_where.then_some(placed);
             ExtinctionField::Rgb(read.grid, doc.scale)
         }
     };
@@ -155,9 +189,20 @@ fn build_medium(
             }
             info.memory_bytes += read.grid.bytes();
             notices.extend(read.notices);
-            AlbedoField::Rgb(read.grid)
+            // Files that say where they stand are laid over each other there; others fill the same box.
+            let albedo_from_density = match density_box {
+                Some(density) if read.says_where => read.object_from_unit.inverse() * density,
+                _ => Affine3A::IDENTITY,
+            };
+            AlbedoField::Rgb(read.grid, albedo_from_density)
         }
     };
+    info.majorant = doc.majorant.factor
+        * match &extinction {
+            ExtinctionField::Uniform(sigma) => sigma.largest(),
+            ExtinctionField::Density(grid, sigma) => sigma.largest() * grid.max()[0],
+            ExtinctionField::Rgb(_, scale) => info.max_density * scale,
+        };
     info.tightness = if info.max_density > 0.0 {
         info.mean_density / (info.max_density * doc.majorant.factor)
     } else {
@@ -182,7 +227,11 @@ fn describe<const C: usize>(info: &mut SceneInfo, grid: &Grid<C>) {
     info.mean_density = grid.mean().into_iter().fold(0.0, f32::max);
 }
 
-fn build_light(doc: &LightDoc, resources: &mut dyn Resources) -> Result<LightKind, ResourceError> {
+fn build_light(
+    doc: &LightDoc,
+    resources: &mut dyn Resources,
+    notices: &mut Vec<String>,
+) -> Result<LightKind, ResourceError> {
     let radiance = |doc: &SpectrumDoc, scale: f32| Spectrum::new(doc, Quantity::Radiance).scaled(scale);
     Ok(match doc {
         LightDoc::Rectangle { center, target, up, size, radiance: r, scale, .. } => {
@@ -202,8 +251,10 @@ fn build_light(doc: &LightDoc, resources: &mut dyn Resources) -> Result<LightKin
             LightKind::Environment(Environment { radiance: radiance(r, *scale) })
         }
         LightDoc::EnvironmentMap { file, rotate_deg, scale, .. } => {
+            let (panorama, repairs) = resources.panorama(file)?;
+            notices.extend(repairs);
             LightKind::EnvironmentMap(EnvironmentMap {
-                panorama: resources.panorama(file)?,
+                panorama,
                 scale: *scale,
                 rotate: rotate_deg.to_radians(),
             })

@@ -24,7 +24,7 @@ impl Camera {
     pub fn new(doc: &CameraDoc, width: u32, height: u32) -> Self {
         let origin = Vec3::from(doc.origin);
         let forward = (Vec3::from(doc.target) - origin).normalize();
-        let sideways = forward.cross(Vec3::from(doc.up));
+        let sideways = forward.cross(Vec3::from(doc.up).normalize());
         let right = if sideways.length_squared() > 1e-12 {
             sideways.normalize()
         } else {

@@ -42,6 +42,8 @@ pub struct SceneInfo {
     pub max_density: f32,
     /// Mean density over the box.
     pub mean_density: f32,
+    /// Largest majorant over wavelengths, per scene unit.
+    pub majorant: f32,
     /// Mean extinction over the majorant: the share of collisions in the box that are real.
     pub tightness: f32,
     /// Lowest corner of the medium's bounds in the world.
@@ -77,6 +79,12 @@ impl<'a> NearestSurface<'a> {
 }
 
 impl Scene {
+    /// Whether any surface stands in the way at `0 < t < t_max`.
+    #[must_use]
+    pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
+        self.surfaces.iter().any(|surface| surface.shape.intersect(ray, t_max).is_some())
+    }
+
     /// The surface that a ray meets first at `0 < t < t_max`. Rays from the camera pass through lights
     /// that are hidden from it.
     #[must_use]

@@ -20,8 +20,8 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The most pixels of a film: 64 million keep film and pictures below 5 GB.
-const MAX_PIXELS: u64 = 64_000_000;
+/// The most pixels of a film: 8K. Film, snapshot and preview take about 120 bytes a pixel, 4 GB in all.
+const MAX_PIXELS: u64 = 7680 * 4320;
 
 #[derive(Default)]
 struct Checker {
@@ -35,9 +35,26 @@ impl Checker {
         }
     }
 
+    /// Coordinates and angles: finite, and small enough that distances between them are.
     fn finite(&mut self, path: impl Into<String>, values: &[f32]) {
-        let good = values.iter().all(|v| v.is_finite());
-        self.check(good, path, "holds a number that is not finite");
+        let good = values.iter().all(|v| v.abs() <= 1e9);
+        self.check(good, path, "holds a number that is not finite, or beyond a billion");
+    }
+
+    /// Two points that must not coincide.
+    fn apart(&mut self, path: &str, a: [f32; 3], b: [f32; 3]) {
+        let distance = Vec3::from(a).distance(Vec3::from(b));
+        let scale = Vec3::from(a).abs().max_element();
+        self.check(
+            distance > 1e-6 * scale && distance > 1e-9,
+            path,
+            "is where the thing itself stands: it has no direction to face; move one of the two",
+        );
+    }
+
+    fn lengths(&mut self, path: impl Into<String>, values: &[f32]) {
+        let good = values.iter().all(|v| *v > 0.0 && *v <= 1e9);
+        self.check(good, path, "must be positive, and at most a billion");
     }
 
     fn range(&mut self, path: impl Into<String>, value: f32, lo: f32, hi: f32) {
@@ -61,7 +78,7 @@ impl Checker {
 
     fn direction(&mut self, path: &str, v: [f32; 3]) {
         let length = Vec3::from(v).length();
-        self.check(length.is_finite() && length > 0.0, path, format!("is {v:?}, which has no direction"));
+        self.check(length.is_finite() && length > 1e-9, path, format!("is {v:?}, which has no direction"));
     }
 }
 
@@ -85,12 +102,9 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
         ),
     );
     let camera = &doc.camera;
-    c.finite("camera", &[camera.origin, camera.target, camera.up].concat());
-    c.check(
-        camera.origin != camera.target,
-        "camera.target",
-        "is where the camera stands: move one of the two",
-    );
+    c.finite("camera.origin", &camera.origin);
+    c.finite("camera.target", &camera.target);
+    c.apart("camera.target", camera.target, camera.origin);
     c.direction("camera.up", camera.up);
     c.check(
         camera.fov_deg > 0.0 && camera.fov_deg < 179.0,
@@ -108,6 +122,11 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
         doc.estimator.max_depth != Some(0),
         "estimator.max_depth",
         "is 0; 1 is emission only, 2 single scattering; leave it out for no limit",
+    );
+    c.check(
+        i64::try_from(doc.render.seed).is_ok(),
+        "render.seed",
+        "is above 2^63 − 1, the largest number that a scene file holds",
     );
     c.check(doc.render.spp != Some(0), "render.spp", "is 0: leave it out for no limit");
     c.check(
@@ -144,7 +163,7 @@ fn medium(c: &mut Checker, doc: &MediumDoc) {
         format!("is {}; it lies between 0.01 and 1000, 1 is tight", doc.majorant.factor),
     );
     match doc.phase {
-        PhaseDoc::Isotropic | PhaseDoc::Rayleigh => {}
+        PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
         PhaseDoc::HenyeyGreenstein { g } => c.range("medium.phase.g", g, -0.999, 0.999),
         PhaseDoc::TwoLobe { g_forward, g_backward, forward } => {
             c.range("medium.phase.g_forward", g_forward, -0.999, 0.999);
@@ -153,68 +172,70 @@ fn medium(c: &mut Checker, doc: &MediumDoc) {
         }
     }
     let p = &doc.placement;
-    c.finite("medium.placement", &[p.scale, p.rotate_deg, p.translate].concat());
-    c.check(p.fit.is_none_or(|fit| fit > 0.0 && fit.is_finite()), "medium.placement.fit", "must be positive");
+    c.finite("medium.placement.scale", &p.scale);
+    c.finite("medium.placement.rotate_deg", &p.rotate_deg);
+    c.finite("medium.placement.translate", &p.translate);
+    c.check(p.fit.is_none_or(|fit| fit > 0.0 && fit <= 1e9), "medium.placement.fit", "must be positive");
     if let Some(matrix) = p.matrix {
         c.finite("medium.placement.matrix", &matrix.concat());
     }
 }
 
 fn check_light(c: &mut Checker, path: &str, doc: &LightDoc) {
-    let (spectrum, scale) = match doc {
+    let key = |name: &str| format!("{path}.{name}");
+    let scale = match doc {
         LightDoc::Rectangle { center, target, up, size, radiance, scale, .. } => {
-            c.finite(path, &[*center, *target, *up].concat());
-            c.check(center != target, format!("{path}.target"), "is the light's own centre");
-            c.check(
-                size.iter().all(|s| *s > 0.0 && s.is_finite()),
-                format!("{path}.size"),
-                "needs two positive lengths",
-            );
-            (Some(radiance), *scale)
+            c.finite(key("center"), center);
+            c.finite(key("target"), target);
+            c.apart(&key("target"), *target, *center);
+            c.direction(&key("up"), *up);
+            c.lengths(key("size"), size);
+            c.spectrum(&key("radiance"), radiance, 1e9);
+            scale
         }
         LightDoc::Sphere { center, radius, radiance, scale, .. } => {
-            c.finite(path, center);
-            c.check(*radius > 0.0 && radius.is_finite(), format!("{path}.radius"), "must be positive");
-            (Some(radiance), *scale)
+            c.finite(key("center"), center);
+            c.lengths(key("radius"), &[*radius]);
+            c.spectrum(&key("radiance"), radiance, 1e9);
+            scale
         }
         LightDoc::Sun { toward, angular_diameter_deg, irradiance, scale, .. } => {
-            c.direction(&format!("{path}.toward"), *toward);
+            c.direction(&key("toward"), *toward);
             c.check(
                 (0.05..=170.0).contains(angular_diameter_deg),
-                format!("{path}.angular_diameter_deg"),
+                key("angular_diameter_deg"),
                 format!("is {angular_diameter_deg}; from 0.05 to 170 degrees a scattered path can meet it"),
             );
-            (Some(irradiance), *scale)
+            c.spectrum(&key("irradiance"), irradiance, 1e9);
+            scale
         }
-        LightDoc::Environment { radiance, scale, .. } => (Some(radiance), *scale),
+        LightDoc::Environment { radiance, scale, .. } => {
+            c.spectrum(&key("radiance"), radiance, 1e9);
+            scale
+        }
         LightDoc::EnvironmentMap { file, rotate_deg, scale, .. } => {
-            c.finite(path, &[*rotate_deg]);
-            c.check(!file.is_empty(), format!("{path}.file"), "names no picture: choose an EXR or HDR file");
-            (None, *scale)
+            c.finite(key("rotate_deg"), &[*rotate_deg]);
+            c.check(!file.is_empty(), key("file"), "names no picture: choose an EXR or HDR file");
+            scale
         }
     };
-    if let Some(spectrum) = spectrum {
-        c.spectrum(path, spectrum, 1e9);
-    }
-    c.range(format!("{path}.scale"), scale, 0.0, 1e9);
+    c.range(key("scale"), *scale, 0.0, 1e9);
 }
 
 fn check_object(c: &mut Checker, path: &str, doc: &ObjectDoc) {
+    let key = |name: &str| format!("{path}.{name}");
     let albedo = match doc {
         ObjectDoc::Ground { point, normal, albedo } => {
-            c.finite(path, point);
-            c.direction(&format!("{path}.normal"), *normal);
+            c.finite(key("point"), point);
+            c.direction(&key("normal"), *normal);
             albedo
         }
         ObjectDoc::Box { center, size, rotate_deg, albedo } => {
-            c.finite(path, &[*center, *rotate_deg].concat());
-            c.check(
-                size.iter().all(|s| *s > 0.0 && s.is_finite()),
-                format!("{path}.size"),
-                "needs three positive lengths",
-            );
+            c.finite(key("center"), center);
+            c.finite(key("rotate_deg"), rotate_deg);
+            c.lengths(key("size"), size);
             albedo
         }
     };
-    c.spectrum(&format!("{path}.albedo"), albedo, 1.0);
+    c.spectrum(&key("albedo"), albedo, 1.0);
 }

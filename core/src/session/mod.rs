@@ -9,7 +9,9 @@
 //! runs (checked row by row) and starts a new generation; stale snapshots are never published.
 //! The caller's thread never waits for rendering, and an idle session uses no CPU.
 
+mod active;
 mod coordinator;
+mod keeper;
 mod mailbox;
 mod pass;
 mod preview;

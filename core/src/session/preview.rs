@@ -20,7 +20,8 @@ pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
             if !work.wanted.yes() {
                 return None;
             }
-            let value = if rgb.is_finite() { rgb.to_array() } else { [0.0; 3] };
+            // What is not finite shows as such.
+            let value = rgb.to_array();
             for row in rows.chunks_mut(width) {
                 row[left..(left + stride).min(width)].fill(value);
             }

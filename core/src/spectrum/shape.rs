@@ -111,6 +111,14 @@ impl Spectrum {
     }
 }
 
+impl Spectrum {
+    /// The largest value over the rendered wavelengths and the three components of RGB mode.
+    #[must_use]
+    pub fn largest(&self) -> f32 {
+        self.max_over_wavelengths().max(self.rgb.max_element())
+    }
+}
+
 impl Shape {
     fn at(&self, lambda_nm: f32) -> f32 {
         match self {

@@ -24,7 +24,7 @@ impl Rectangle {
     #[must_use]
     pub fn facing(center: Vec3, target: Vec3, up: Vec3, size: [f32; 2]) -> Self {
         let normal = (target - center).normalize();
-        let sideways = up.cross(normal);
+        let sideways = up.normalize().cross(normal);
         let u = if sideways.length_squared() > 1e-12 {
             sideways.normalize()
         } else {

@@ -36,13 +36,12 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             return None;
         }
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
-        // Stops short of the light itself.
-        let t_max = sample.distance * (1.0 - 1e-4);
-        if self.scene.nearest_surface(&ray, t_max, false).role().is_some() {
+        // Occluders are looked for short of the light itself; the medium reaches all the way.
+        if self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
             return None;
         }
         let mut weights = path.connect(density, sample.density / lights.len() as f32);
-        let mut walk = self.walk(&ray, t_max);
+        let mut walk = self.walk(&ray, sample.distance);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
             if weights.is_dark() {

@@ -39,6 +39,8 @@ pub struct Collision<const N: usize> {
     pub null_density: Sampled<N>,
     /// Density of taking it as scattering, per component.
     pub scattering_density: Sampled<N>,
+    /// Density of taking it as absorption, for the hero.
+    absorption_density: f32,
 }
 
 impl<const N: usize> Collision<N> {
@@ -48,34 +50,35 @@ impl<const N: usize> Collision<N> {
         let c = &coefficients;
         let extinction = c.extinction();
         let mut null_density = c.null.abs();
-        let mut scattering_density = match absorption {
-            Absorption::Analogue => c.scattering,
-            Absorption::Weighted => extinction,
+        let (mut scattering_density, mut absorption_density) = match absorption {
+            Absorption::Analogue => (c.scattering, c.absorption.hero()),
+            Absorption::Weighted => (extinction, 0.0),
         };
         let bounds = extinction.zip(c.majorant, |t, m| if t > m { 1.0 } else { 0.0 }).is_zero();
         if !bounds {
             let k = c.majorant.zip(extinction + null_density, |m, sum| m / sum.max(f32::MIN_POSITIVE));
             null_density *= k;
             scattering_density *= k;
+            absorption_density *= k.hero();
         }
-        Self { point, coefficients, null_density, scattering_density }
+        Self { point, coefficients, null_density, scattering_density, absorption_density }
     }
 
     /// Draws the event from the hero's densities.
     pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
         let u = trace.sampler.next_1d() * self.coefficients.majorant.hero();
-        // Compared from the small end; an event of density zero is never drawn, even by rounding.
-        if u < scattering {
-            Event::Scattering
-        } else if u < scattering + null {
-            Event::Null
-        } else if scattering + null < self.coefficients.majorant.hero() * (1.0 - 1e-5) {
+        // The three densities add up to μ̄. An event of density zero is never drawn, even by rounding.
+        if u < self.absorption_density {
             Event::Absorption
-        } else if null > scattering {
-            Event::Null
-        } else {
+        } else if u < self.absorption_density + scattering {
             Event::Scattering
+        } else if null > 0.0 {
+            Event::Null
+        } else if scattering > 0.0 {
+            Event::Scattering
+        } else {
+            Event::Absorption
         }
     }
 }
@@ -96,7 +99,9 @@ mod tests {
     #[test]
     fn events_come_as_often_as_their_densities_say() {
         // (μt, albedo, μ̄): bounding, tight, and exceeded.
-        for (t, a, m) in [(3.0, 0.7, 5.0), (5.0, 0.7, 5.0), (8.0, 0.7, 5.0), (5.0, 0.0, 5.0)] {
+        for (t, a, m) in
+            [(3.0, 0.7, 5.0), (5.0, 0.7, 5.0), (8.0, 0.7, 5.0), (5.0, 0.0, 5.0), (5.0, 0.999, 5.0)]
+        {
             for absorption in [Absorption::Analogue, Absorption::Weighted] {
                 let c = collision(t, a, m, absorption);
                 let null = (m - t).abs();

@@ -8,9 +8,6 @@ use crate::math::{Ray, UnitBox};
 use crate::medium::{LocalMedium, MajorantSegment};
 use crate::scene::{Absorption, Scene};
 
-/// Collisions between two questions whether the path is still wanted; an unwanted walk ends.
-const ASK_EVERY: u64 = 4096;
-
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
@@ -30,16 +27,20 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             origin: scene.medium_from_world.transform_point3(ray.origin),
             direction: scene.medium_from_world.transform_vector3(ray.direction),
         };
+        // The walk counts from where it enters: a camera far away must not cost it digits.
         let inside =
             UnitBox::interval(&ray_in_medium).map(|(t0, t1)| (t0, t1.min(t_max))).filter(|(t0, t1)| t0 < t1);
-        let mut segments = inside.map(|(t0, t1)| medium.segments(&ray_in_medium, t0, t1));
+        let from_entry = |ray: &Ray, t0: f32| Ray { origin: ray.at(t0), direction: ray.direction };
+        let (t0, length) = inside.map_or((0.0, 0.0), |(t0, t1)| (t0, t1 - t0));
+        let ray_in_medium = from_entry(&ray_in_medium, t0);
+        let mut segments = inside.map(|_| medium.segments(&ray_in_medium, 0.0, length));
         let segment = segments.as_mut().and_then(Iterator::next);
-        let t = segment.as_ref().map_or(0.0, |s| s.t0);
-        Self { medium, ray_in_world: *ray, ray_in_medium, segments, segment, t, absorption }
+        let ray_in_world = from_entry(ray, t0);
+        Self { medium, ray_in_world, ray_in_medium, segments, segment, t: 0.0, absorption }
     }
 
     /// Flies to the next tentative collision and multiplies the way there into `weights`; `None` once
-    /// the walk has left the medium.
+    /// the walk has left the medium, or the path is not wanted any more.
     #[inline]
     pub fn next_collision(
         &mut self,
@@ -47,6 +48,9 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         weights: &mut PathWeights<N>,
     ) -> Option<Collision<N>> {
         self.segment?;
+        if trace.must_stop() {
+            return None;
+        }
         let mut optical_depth = trace.sampler.next_optical_depth();
         while let Some(segment) = self.segment {
             let hero = segment.majorant.hero();
@@ -55,9 +59,6 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 weights.pass(segment.majorant, t - self.t);
                 self.t = t;
                 trace.lookups += 1;
-                if trace.lookups.is_multiple_of(ASK_EVERY) && !trace.wanted.yes() {
-                    return None;
-                }
                 let coefficients = self.medium.coefficients(self.ray_in_medium.at(t), &segment);
                 return Some(Collision::new(self.ray_in_world.at(t), coefficients, self.absorption));
             }

@@ -19,22 +19,35 @@ pub struct PathSettings {
     pub roulette_depth: u32,
 }
 
-/// The random numbers of one path, and what it has cost.
+/// Steps of a path between two questions whether it is still wanted.
+const ASK_EVERY: u32 = 1024;
+
+/// The random numbers of one path, what it has cost, and whether it is still wanted.
 #[derive(Clone, Debug)]
 pub struct Trace<'a> {
     /// Random numbers.
     pub sampler: Sampler,
     /// Evaluations of the medium's coefficients.
     pub lookups: u64,
-    /// Whether the path is still wanted.
-    pub wanted: Wanted<'a>,
+    wanted: Wanted<'a>,
+    steps: u32,
+    stopped: bool,
 }
 
 impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
     pub fn new(sampler: Sampler, wanted: Wanted<'a>) -> Self {
-        Self { sampler, lookups: 0, wanted }
+        Self { sampler, lookups: 0, wanted, steps: 0, stopped: false }
+    }
+
+    /// Counts a collision or a vertex; true once the path is not wanted any more, and from then on.
+    pub fn must_stop(&mut self) -> bool {
+        self.steps = self.steps.wrapping_add(1);
+        if self.steps.is_multiple_of(ASK_EVERY) && !self.wanted.yes() {
+            self.stopped = true;
+        }
+        self.stopped
     }
 }
 
@@ -81,11 +94,12 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         end: &NearestSurface,
         from_camera: bool,
     ) -> impl Iterator<Item = Arrival<N>> {
-        let (ray, t, role) = (*ray, end.t(), end.role());
+        let (ray, t, role, normal) = (*ray, end.t(), end.role(), end.normal());
         let count = self.scene.lights.len() as f32;
         self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {
             let met = match role {
-                Some(Role::Light(met)) => *met == index,
+                // Lights with a surface emit on the side of its normal only.
+                Some(Role::Light(met)) => *met == index && ray.direction.dot(normal) < 0.0,
                 Some(Role::Diffuse(_)) => false,
                 None => light.is_behind(ray.direction),
             };
@@ -102,13 +116,20 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let Some(Role::Diffuse(albedo)) = end.role() else { return None };
         let point = ray.at(end.t());
         let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
-        // Off the surface by more than the rounding of the point's own coordinates.
-        let lift = 1e-5 * (point.abs().max_element() + end.t());
+        // Off the surface by several times the rounding of the point's own coordinates, whose error is
+        // that of the ray's origin and of the point.
+        let lift = 1e-6 * (point.abs().max_element() + ray.origin.abs().max_element());
         Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
     }
 
-    /// Ends faint paths at random: continues with a probability that grows with the throughput.
-    /// Returns whether the path goes on, its weights adjusted.
+    /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
+    /// can still contribute, it is still wanted.
+    pub fn goes_on(&self, vertices: u32, weights: &super::PathWeights<N>, trace: &mut Trace<'_>) -> bool {
+        vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
+    }
+
+    /// Russian roulette: continues with a probability that is the throughput, between 0.05 and 1, and
+    /// adjusts the weights of what survives.
     pub fn survives_roulette(
         &self,
         vertices: u32,

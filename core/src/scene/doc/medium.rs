@@ -57,16 +57,21 @@ pub struct GridRef {
 }
 
 /// Where the density comes from.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DensityDoc {
     /// 1 everywhere in the unit cube centred on the origin: a homogeneous medium.
-    #[default]
-    Uniform,
+    Uniform {},
     /// A scalar grid, trilinear between samples.
     Grid(GridRef),
     /// An RGB grid that stands for density times extinction; `extinction` is then unused.
     RgbGrid(GridRef),
+}
+
+impl Default for DensityDoc {
+    fn default() -> Self {
+        Self::Uniform {}
+    }
 }
 
 impl DensityDoc {
@@ -74,7 +79,7 @@ impl DensityDoc {
     #[must_use]
     pub fn grid(&self) -> Option<&GridRef> {
         match self {
-            Self::Uniform => None,
+            Self::Uniform {} => None,
             Self::Grid(grid) | Self::RgbGrid(grid) => Some(grid),
         }
     }

@@ -16,7 +16,8 @@ pub struct EstimatorDoc {
     /// single scattering. Absent: unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_depth: Option<u32>,
-    /// Ends faint paths at random after this many scattering vertices, unbiased. Absent: never.
+    /// Russian roulette, unbiased, after this many scattering vertices: a path goes on with a probability
+    /// that is its throughput, between 0.05 and 1. Absent: never.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub roulette_depth: Option<u32>,
 }

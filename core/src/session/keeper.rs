@@ -1,0 +1,55 @@
+//! What the coordinator keeps between jobs: files, the frozen scene, threads.
+
+use crate::io::Library;
+use crate::scene::{Scene, SceneDoc, build};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::SystemTime;
+
+/// Keeps what is expensive to make.
+pub(super) struct Keeper {
+    library: Library,
+    pools: BTreeMap<usize, Arc<ThreadPool>>,
+    /// The newest frozen scene, with the document and the times of the files that it came from.
+    frozen: Option<(SceneDoc, Vec<Option<SystemTime>>, Arc<Scene>)>,
+}
+
+impl Keeper {
+    pub fn new(library: Library) -> Self {
+        Self { library, pools: BTreeMap::new(), frozen: None }
+    }
+
+    /// Freezes a document, or finds it frozen already.
+    pub fn scene(&mut self, doc: &SceneDoc) -> Result<Arc<Scene>, String> {
+        let (key, stamps) = (doc.scene_part(), self.library.stamps(doc));
+        if let Some((known, known_stamps, scene)) = &self.frozen
+            && *known == key
+            && *known_stamps == stamps
+        {
+            return Ok(Arc::clone(scene));
+        }
+        let scene = Arc::new(build(doc, &mut self.library).map_err(|e| e.to_string())?);
+        self.frozen = Some((key, stamps, Arc::clone(&scene)));
+        Ok(scene)
+    }
+
+    /// A pool of worker threads; one per core if no number is given.
+    pub fn pool(&mut self, threads: Option<usize>) -> Result<Arc<ThreadPool>, String> {
+        let threads =
+            threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
+        if let Some(pool) = self.pools.get(&threads) {
+            return Ok(Arc::clone(pool));
+        }
+        // Threads of pools that no view uses any more end here.
+        self.pools.retain(|_, pool| Arc::strong_count(pool) > 1);
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("majorant-worker-{i}"))
+            .build()
+            .map_err(|e| format!("{threads} worker threads could not be started: {e}"))?;
+        let pool = Arc::new(pool);
+        self.pools.insert(threads, Arc::clone(&pool));
+        Ok(pool)
+    }
+}
