@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 \"min\",\"max\",\"mean\",\"bbox\":[x0,y0,z0,x1,y1,z1],\"background\"}…]}; the bounding box is in inclusive index
 coordinates, the mean is over active voxels, and a grid that is refused carries \"error\" instead.")]
 pub(super) struct Arguments {
-    /// A .vdb, .vol, .npy, .exr or .toml file.
+    /// A .vdb, .vol, .npy, .raw, .exr or .toml file.
     file: PathBuf,
     /// Print one line of JSON.
     #[arg(long)]
@@ -23,14 +23,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match extension.to_ascii_lowercase().as_str() {
         "vdb" => grids(&volume::info(path)?, arguments.json),
-        "vol" | "npy" => {
+        "vol" | "npy" | "raw" => {
             let grid = volume::read_volume(path, None, &Limits::default())?;
             grids(&[describe(&grid, extension)], arguments.json)
         }
         "exr" => exr(path, arguments.json),
         "toml" => scene(path, arguments.json),
         _ => Err(Failure::Message(format!(
-            "{}: info knows .vdb, .vol, .npy, .exr and .toml files",
+            "{}: info knows .vdb, .vol, .npy, .raw, .exr and .toml files",
             path.display()
         ))),
     }

@@ -61,7 +61,7 @@ impl Library {
 
     fn read(&self, key: &Key, file: &str) -> Result<VoxelGrid, ResourceError> {
         if file.is_empty() {
-            return Err(ResourceError("no file is named: choose a .vdb, .npy or .vol file".into()));
+            return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
         let grid = key.grid.as_deref();
         let read = match embedded::volume(file) {
@@ -131,8 +131,9 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
     let placed = voxels.world_from_index * index_from_unit;
     let object_from_unit =
         Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
-    // The reader gives `.npy` arrays a box of its own choice.
-    let says_where = path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy"));
+    // The readers give `.npy` and `.raw` a box of their own choice.
+    let says_where =
+        path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
     Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, says_where, notices })
 }
 

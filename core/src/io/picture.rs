@@ -11,7 +11,7 @@ const MAX_PIXELS: usize = 128_000_000;
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The file could not be opened or read.
-    #[error("{file}: {source}")]
+    #[error("{file}: {source}. Check the name and the folder, or choose another file.")]
     Io {
         /// The file.
         file: String,

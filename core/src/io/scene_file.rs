@@ -12,7 +12,7 @@ use toml_edit::{Document, Item};
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
     /// The file could not be read or written.
-    #[error("{file}: {source}")]
+    #[error("{file}: {source}. Check the name and the folder, or choose another file.")]
     Io {
         /// The file.
         file: String,

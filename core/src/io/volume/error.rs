@@ -9,7 +9,7 @@ use std::fmt;
 #[derive(Debug, thiserror::Error)]
 pub enum VolumeError {
     /// The operating system could not give us the bytes.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{file}: cannot be read: {source}. Check the name and the folder, or choose another file")]
     Io {
         /// Path or label of the file.
         file: String,

@@ -43,6 +43,27 @@ pub struct VoxelGrid {
 }
 
 impl VoxelGrid {
+    /// A grid from a file that does not say where it stands: its voxels become cubes, its longest side
+    /// one world unit, and its corner of index (0, 0, 0) the origin. Repairs and counts.
+    pub(super) fn without_place(size: [usize; 3], channels: usize, values: Vec<f32>) -> Self {
+        let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
+        let mut grid = Self {
+            name: String::new(),
+            size,
+            channels,
+            values,
+            min_index: [0; 3],
+            background: 0.0,
+            world_from_index: DAffine3::from_scale(DVec3::splat(1.0 / longest)),
+            convention: SampleConvention::CellCentred,
+            level_set: false,
+            repaired: 0,
+            negative: 0,
+        };
+        grid.repair_and_count();
+        grid
+    }
+
     /// Number of voxels.
     pub fn voxels(&self) -> usize {
         self.size.iter().product()

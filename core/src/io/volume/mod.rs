@@ -1,4 +1,4 @@
-//! Volume files: OpenVDB, NumPy arrays and Mitsuba volumes, each into a dense [`VoxelGrid`].
+//! Volume files: OpenVDB, NumPy arrays, Mitsuba volumes and raw voxels, each into a dense [`VoxelGrid`].
 //!
 //! A file is data from outside. Readers check every size before they use it, keep within
 //! [`Limits`], and refuse what they would not read exactly, with an error that names the file, the
@@ -14,6 +14,7 @@ mod grid;
 mod limits;
 mod mitsuba_vol;
 mod npy;
+mod raw;
 mod vdb;
 
 use std::path::Path;
@@ -23,9 +24,13 @@ pub use grid::{SampleConvention, VoxelGrid, validate_density};
 pub use limits::Limits;
 pub use mitsuba_vol::read_mitsuba_vol_bytes;
 pub use npy::read_npy_bytes;
+pub use raw::read_raw_bytes;
 pub use vdb::{Background, GridInfo, info, info_bytes, read_vdb, read_vdb_bytes};
 
 use error::Fault;
+
+/// Extensions of the formats that are read.
+pub const EXTENSIONS: &[&str] = &["vdb", "npy", "vol", "raw"];
 
 /// The formats that are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +38,7 @@ enum Format {
     OpenVdb,
     Npy,
     MitsubaVol,
+    Raw,
 }
 
 impl Format {
@@ -43,6 +49,7 @@ impl Format {
             Some("vdb") => Some(Self::OpenVdb),
             Some("npy") => Some(Self::Npy),
             Some("vol") => Some(Self::MitsubaVol),
+            Some("raw") => Some(Self::Raw),
             _ if bytes.starts_with(&vdb::MAGIC) => Some(Self::OpenVdb),
             _ if bytes.starts_with(npy::MAGIC) => Some(Self::Npy),
             _ if bytes.starts_with(mitsuba_vol::MAGIC) => Some(Self::MitsubaVol),
@@ -51,7 +58,7 @@ impl Format {
     }
 }
 
-/// Reads a volume file of any supported format: `.vdb`, `.npy`, `.vol`.
+/// Reads a volume file of any supported format: `.vdb`, `.npy`, `.vol`, `.raw`.
 ///
 /// `grid` chooses a grid of an OpenVDB file; see [`read_vdb`]. The other formats hold one unnamed
 /// grid.
@@ -74,10 +81,10 @@ pub fn read_volume_bytes(
 ) -> Result<VoxelGrid, VolumeError> {
     let Some(format) = Format::of(label, bytes) else {
         let what = "this file format";
-        let cure = "Use an OpenVDB (.vdb), NumPy (.npy) or Mitsuba (.vol) file";
+        let cure = "Use an OpenVDB (.vdb), NumPy (.npy), Mitsuba (.vol) or raw float32 (.raw) file";
         return Err(Fault::unsupported(what, cure).in_file(label, None));
     };
-    if let (Some(wanted), Format::Npy | Format::MitsubaVol) = (grid, format) {
+    if let (Some(wanted), Format::Npy | Format::MitsubaVol | Format::Raw) = (grid, format) {
         return Err(VolumeError::NoSuchGrid {
             file: label.to_owned(),
             what: format!("it has no grid named \"{wanted}\": the format holds one unnamed grid"),
@@ -88,5 +95,6 @@ pub fn read_volume_bytes(
         Format::OpenVdb => read_vdb_bytes(bytes, label, grid, limits),
         Format::Npy => read_npy_bytes(bytes, label, limits),
         Format::MitsubaVol => read_mitsuba_vol_bytes(bytes, label, limits),
+        Format::Raw => read_raw_bytes(bytes, label, limits),
     }
 }

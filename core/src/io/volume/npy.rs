@@ -4,15 +4,13 @@
 //! to 3: magic, version, header length, a Python dictionary as text, then the values.
 //! Element types: little-endian float16, float32, float64, and uint8 (taken as 0 to 255).
 //!
-//! An array has no place in space. Its voxels become cubes, its longest side one world unit, and
-//! its corner of index (0, 0, 0) the origin.
+//! An array has no place in space; see [`VoxelGrid::without_place`].
 
-use glam::{DAffine3, DVec3};
 use half::f16;
 
 use super::cursor::Cursor;
 use super::error::{Fault, VolumeError};
-use super::grid::{SampleConvention, VoxelGrid};
+use super::grid::VoxelGrid;
 use super::limits::{Limits, allocate};
 
 /// First bytes of every `.npy` file.
@@ -59,22 +57,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
         Element::F64 => values.extend(chunks(data).map(|b| f64::from_le_bytes(b) as f32)),
         Element::U8 => values.extend(data.iter().map(|&byte| f32::from(byte))),
     }
-    let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
-    let mut grid = VoxelGrid {
-        name: String::new(),
-        size,
-        channels,
-        values,
-        min_index: [0; 3],
-        background: 0.0,
-        world_from_index: DAffine3::from_scale(DVec3::splat(1.0 / longest)),
-        convention: SampleConvention::CellCentred,
-        level_set: false,
-        repaired: 0,
-        negative: 0,
-    };
-    grid.repair_and_count();
-    Ok(grid)
+    Ok(VoxelGrid::without_place(size, channels, values))
 }
 
 /// The rest of the file, which must be exactly `len` elements.

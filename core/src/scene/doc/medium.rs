@@ -45,7 +45,7 @@ impl Default for MediumDoc {
     }
 }
 
-/// A grid in a file: OpenVDB, `.npy` or Mitsuba `.vol`.
+/// A grid in a file: OpenVDB, `.npy`, Mitsuba `.vol` or `.raw`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GridRef {
