@@ -1,119 +1,22 @@
 //! The window, driven through its accessibility tree: no display, no GPU. Every check looks at the
 //! document or the session, not at labels alone.
 
+#[path = "gui/files.rs"]
+mod files;
+#[path = "gui/harness.rs"]
+mod harness;
+
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
-use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT, Queryable};
-use majorant::lab::{LabApp, LabOptions};
+use egui::{Event, Key, Modifiers, PointerButton, vec2};
+use egui_kittest::kittest::Queryable;
+use harness::{Lab, click, doc, drag, lab, lab_on, open, redo, undo, wait};
+use majorant::lab::LabApp;
 use majorant::model::Source;
 use majorant::panels::PANELS;
 use majorant_core::estimator::REGISTRY;
-use majorant_core::scene::{DensityDoc, SceneDoc};
 use majorant_core::session::Status;
 use majorant_core::spectrum::SpectrumDoc;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::{Duration, Instant};
-
-type Lab = Harness<'static, LabApp>;
-
-const SCENE: &str = r#"
-majorant = 1
-title = "Test"
-film = { width = 32, height = 18 }
-medium = { extinction = "430:8, 540:40, 572:8" }
-lights = [{ kind = "environment" }]
-render = { spp = 4 }
-"#;
-
-/// The window on a small scene in a file of its own.
-fn lab() -> (Lab, tempfile::TempDir) {
-    let directory = tempfile::tempdir().expect("a temporary directory");
-    let path = directory.path().join("test.toml");
-    std::fs::write(&path, SCENE).expect("a scene file");
-    (lab_on(Source::File(path)), directory)
-}
-
-fn lab_on(source: Source) -> Lab {
-    let options = LabOptions { open: Some(source), native_dialogs: false, ..LabOptions::default() };
-    let mut lab = Harness::builder()
-        // High enough that no panel has to be scrolled to.
-        .with_size(vec2(1600.0, 3600.0))
-        .with_step_dt(1.0 / 60.0)
-        .build_eframe(move |cc| LabApp::new(cc, &options).expect("threads"));
-    lab.run_steps(3);
-    lab
-}
-
-/// Steps until something is true; the session works on threads of its own.
-fn wait(lab: &mut Lab, what: &str, done: impl Fn(&LabApp) -> bool) {
-    let deadline = Instant::now() + Duration::from_secs(20);
-    while !done(lab.state()) {
-        assert!(Instant::now() < deadline, "{what} did not happen; state: {:?}", lab.state().state());
-        std::thread::sleep(Duration::from_millis(5));
-        lab.step();
-    }
-}
-
-fn click(lab: &mut Lab, role: Role, label: &str) {
-    lab.get_by_role_and_label(role, label).click();
-    lab.run_steps(3);
-}
-
-/// Opens a panel that starts closed.
-fn open(lab: &mut Lab, title: &str) {
-    let header = lab.get_by_role_and_label(Role::DisclosureTriangle, title);
-    if header.accesskit_node().data().is_expanded() != Some(true) {
-        click(lab, Role::DisclosureTriangle, title);
-        // Opening is animated.
-        lab.run_steps(12);
-    }
-}
-
-fn drag(lab: &mut Lab, from: Pos2, to: Pos2, button: PointerButton, modifiers: Modifiers) {
-    let press = |pos, pressed| Event::PointerButton { pos, button, pressed, modifiers };
-    lab.event(Event::ModifiersChanged(modifiers));
-    lab.event(Event::PointerMoved(from));
-    lab.event(press(from, true));
-    for i in 1..=8_u8 {
-        lab.event(Event::PointerMoved(from + (to - from) * (f32::from(i) / 8.0)));
-    }
-    lab.event(press(to, false));
-    lab.event(Event::ModifiersChanged(Modifiers::NONE));
-    lab.run_steps(2);
-}
-
-fn undo(lab: &mut Lab) {
-    lab.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    lab.run_steps(2);
-}
-
-fn redo(lab: &mut Lab) {
-    lab.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
-    lab.run_steps(2);
-}
-
-fn doc(lab: &Lab) -> &SceneDoc {
-    lab.state().doc()
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|e| e.to_string())
-    }
-}
-
-fn drop_file(lab: &mut Lab, path: PathBuf) {
-    lab.input_mut().dropped_files.push(Arc::new(Dropped(path)));
-    lab.run_steps(2);
-}
+use std::time::Duration;
 
 #[test]
 fn every_panel_opens_and_names_its_widgets() {
@@ -302,114 +205,6 @@ fn the_camera_follows_the_mouse_as_one_step() {
 }
 
 #[test]
-fn an_embedded_scene_opens_from_the_menu() {
-    let (mut lab, _directory) = lab();
-    click(&mut lab, Role::Button, "File");
-    click(&mut lab, Role::Button, "Embedded scenes");
-    click(&mut lab, Role::Button, "furnace");
-    let furnace = majorant_core::io::embedded::find("furnace").expect("an embedded scene");
-    let expected = majorant_core::io::scene_file::parse(furnace.toml, "furnace").expect("it parses");
-    assert_eq!(*doc(&lab), expected);
-}
-
-#[test]
-fn unsaved_changes_are_asked_about() {
-    let (mut lab, _directory) = lab();
-    lab.key_press(Key::E);
-    lab.run_steps(2);
-    assert!(lab.state().is_modified());
-    lab.key_press_modifiers(Modifiers::COMMAND, Key::N);
-    lab.run_steps(3);
-    assert_eq!(doc(&lab).title, "Test");
-    click(&mut lab, Role::Button, "Cancel");
-    assert_eq!(doc(&lab).title, "Test");
-    lab.key_press_modifiers(Modifiers::COMMAND, Key::N);
-    lab.run_steps(3);
-    click(&mut lab, Role::Button, "Discard");
-    assert_eq!(doc(&lab).title, SceneDoc::default().title);
-}
-
-#[test]
-fn saving_first_goes_on_with_what_was_asked() {
-    let (_, directory) = lab();
-    let mut lab = lab_on(Source::Embedded("furnace".into()));
-    lab.key_press(Key::E);
-    lab.run_steps(2);
-    lab.key_press_modifiers(Modifiers::COMMAND, Key::N);
-    lab.run_steps(3);
-    click(&mut lab, Role::Button, "Save");
-    let path = directory.path().join("mine.toml");
-    let field = lab.get_by_label("Path");
-    field.set_text_value_accesskit(&path.to_string_lossy());
-    lab.run_steps(3);
-    click(&mut lab, Role::Button, "Save");
-    assert!(path.exists());
-    assert_eq!(doc(&lab).title, SceneDoc::default().title);
-}
-
-#[test]
-fn a_scene_is_saved_and_loaded_again() {
-    let (mut lab, directory) = lab();
-    lab.get_by_role_and_label(Role::SpinButton, "Majorant factor").set_value_accesskit(3.0);
-    lab.run_steps(3);
-    lab.key_press_modifiers(Modifiers::COMMAND, Key::S);
-    lab.run_steps(3);
-    assert!(!lab.state().is_modified());
-    let saved = majorant_core::io::scene_file::load(&directory.path().join("test.toml")).expect("it loads");
-    assert_eq!(saved, *doc(&lab));
-    assert_eq!(saved.medium.majorant.factor, 3.0);
-}
-
-#[test]
-fn a_bad_dropped_file_is_explained_and_changes_nothing() {
-    let (mut lab, directory) = lab();
-    let before = doc(&lab).clone();
-    for name in ["broken.vdb", "broken.toml", "letter.docx", "absent.vdb"] {
-        let path = directory.path().join(name);
-        if name != "absent.vdb" {
-            std::fs::write(&path, "this is not what it says").expect("a file");
-        }
-        let lines = lab.state().messages().lines().len();
-        drop_file(&mut lab, path);
-        wait(&mut lab, name, |app| app.messages().lines().len() > lines);
-        let line = lab.state().messages().lines().last().expect("a line").text.clone();
-        assert!(line.contains(name), "{line}");
-        assert_eq!(*doc(&lab), before);
-    }
-    lab.get_all_by_role_and_label(Role::Button, "Dismiss").next().expect("a button").click();
-    lab.run_steps(3);
-    assert_eq!(lab.state().messages().lines().len(), 3);
-}
-
-#[test]
-fn a_dropped_volume_fills_the_medium() {
-    let (mut lab, directory) = lab();
-    let path = directory.path().join("plume.vdb");
-    let bytes = majorant_core::io::embedded::volume("embedded:plume.vdb").expect("an embedded volume");
-    std::fs::write(&path, bytes).expect("a file");
-    drop_file(&mut lab, path);
-    wait(&mut lab, "filling", |app| matches!(app.doc().medium.density, DensityDoc::Grid(_)));
-    let grid = doc(&lab).medium.density.grid().expect("a grid").clone();
-    assert_eq!(grid.file, "plume.vdb", "relative to the scene file");
-    assert_eq!(doc(&lab).medium.placement.fit, Some(1.0));
-    wait(&mut lab, "rendering it", |app| app.state().scene.as_ref().is_some_and(|s| s.grid_size.is_some()));
-}
-
-#[test]
-fn a_scene_that_cannot_be_built_keeps_picture_and_edits() {
-    let (mut lab, directory) = lab();
-    wait(&mut lab, "a picture", |app| app.shown().is_some_and(|s| s.spp == 4));
-    let sky = directory.path().join("sky.exr");
-    std::fs::write(&sky, "not a picture").expect("a file");
-    drop_file(&mut lab, sky);
-    wait(&mut lab, "failing", |app| matches!(app.state().status, Status::Failed(_)));
-    assert_eq!(doc(&lab).lights.len(), 2);
-    assert!(lab.state().shown().is_some());
-    undo(&mut lab);
-    wait(&mut lab, "recovering", |app| app.state().status == Status::Finished);
-}
-
-#[test]
 fn keys_and_gestures_are_listed() {
     let (mut lab, _directory) = lab();
     lab.key_press(Key::F1);
@@ -444,13 +239,33 @@ fn a_frame_is_cheap_and_an_edit_never_waits() {
 }
 
 #[test]
-fn a_file_over_the_window_is_announced() {
+fn estimators_stay_where_they_are_while_one_compares_them() {
     let (mut lab, _directory) = lab();
-    for name in ["a.vdb", "a.toml", "a.exr", "a.txt"] {
-        lab.input_mut()
-            .hovered_files
-            .push(egui::HoveredFile { path: Some(name.into()), mime: String::new() });
+    let place = |lab: &Lab, name: &str| lab.get_by_role_and_label(Role::RadioButton, name).rect();
+    let before: Vec<_> = REGISTRY.iter().map(|entry| place(&lab, entry.name)).collect();
+    for chosen in REGISTRY {
+        click(&mut lab, Role::RadioButton, chosen.name);
+        let now: Vec<_> = REGISTRY.iter().map(|entry| place(&lab, entry.name)).collect();
+        assert_eq!(now, before, "after choosing {}", chosen.name);
     }
-    lab.run_steps(2);
-    assert!(lab.state().messages().lines().is_empty());
+}
+
+#[test]
+fn long_numbers_neither_widen_a_column_nor_lose_digits() {
+    let (lab, directory) = lab();
+    let canvas = lab.get_by_label("Rendered image").rect();
+    let mut long = doc(&lab).clone();
+    long.camera.origin = [-0.546_713_23, -1.234_567e-6, 123.456_78];
+    let path = directory.path().join("long.toml");
+    majorant_core::io::scene_file::save(&path, &long).expect("it is written");
+    let mut lab = lab_on(Source::File(path));
+    open(&mut lab, "Camera");
+    assert_eq!(lab.get_by_label("Rendered image").rect(), canvas);
+    for axis in ["x", "y", "z"] {
+        lab.get_by_role_and_label(Role::SpinButton, &format!("Camera origin {axis}")).click();
+        lab.run_steps(2);
+        lab.key_press(Key::Enter);
+        lab.run_steps(3);
+    }
+    assert_eq!(doc(&lab).camera, long.camera, "looking at a number must not round it");
 }

@@ -178,6 +178,8 @@ fn visuals(theme: Theme, p: &Palette) -> Visuals {
     };
     v.widgets.noninteractive = widget(p.panel, p.line, p.text);
     v.widgets.inactive = widget(p.control, Color32::TRANSPARENT, p.text);
+    // Checkboxes are small and flat: an empty one has to stand out by its fill.
+    v.widgets.inactive.bg_fill = p.control.lerp_to_gamma(p.text, 0.22);
     v.widgets.hovered =
         widget(p.control.lerp_to_gamma(p.accent, 0.12), p.accent.gamma_multiply(0.6), p.strong);
     v.widgets.active = widget(p.accent_fill, p.accent, p.strong);

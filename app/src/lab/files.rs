@@ -4,6 +4,8 @@ use super::dialogs::{Dialog, PathPrompt};
 use super::{Command, LabApp, Purpose, Severity};
 use crate::model::Source;
 use crate::model::own_volume::{Look, with_volume};
+use crate::widgets::format_number;
+use majorant_core::io::volume::EXTENSIONS;
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +24,7 @@ impl FileKind {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("toml") => Self::Scene,
-            Some("vdb" | "npy" | "vol") => Self::Volume,
+            Some(volume) if EXTENSIONS.contains(&volume) => Self::Volume,
             Some("exr" | "hdr") => Self::Panorama,
             _ => Self::Unknown,
         }
@@ -37,7 +39,7 @@ impl LabApp {
             FileKind::Volume => self.attempt(|app| app.tasks.look_into(path)),
             FileKind::Panorama => self.light_with(&path),
             FileKind::Unknown => self.messages.fail(format!(
-                "{}: not a kind of file that Majorant reads. Scenes are .toml, volumes .vdb, .npy or .vol, environment maps .exr or .hdr.",
+                "{}: not a kind of file that Majorant reads. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
                 path.display()
             )),
         }
@@ -107,7 +109,10 @@ impl LabApp {
         let name = path.display();
         self.messages.say(
             Severity::Done,
-            format!("{name} fills the medium: fitted to length 1, density scaled by {scale}."),
+            format!(
+                "{name} fills the medium: fitted to length 1, density scaled by {}.",
+                format_number(scale.into())
+            ),
         );
     }
 

@@ -96,6 +96,12 @@ impl LabApp {
             settings.theme = theme.into();
         }
         ctx.set_theme(settings.theme);
+        // Columns are remembered from the last run, but they start at their tops.
+        ctx.data_mut(|data| data.remove_by_type::<egui::scroll_area::State>());
+        if let Some(size) = options.window {
+            // eframe restores the size of the last run over the one that was asked for.
+            ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(size.into()));
+        }
 
         let bell = Bell::default();
         let ring = bell.clone();

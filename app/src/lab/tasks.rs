@@ -125,7 +125,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new().set_directory(directory);
     let (title, filter, extensions, default): (_, _, &[&str], _) = match purpose {
         Purpose::OpenScene => ("Open scene", "Scenes", &["toml"], ""),
-        Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Volumes", &["vdb", "npy", "vol"], ""),
+        Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Volumes", volume::EXTENSIONS, ""),
         Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::ExportExr => ("Export EXR", "OpenEXR", &["exr"], "render.exr"),

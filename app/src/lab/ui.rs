@@ -127,7 +127,7 @@ fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
     let palette = Palette::get(ui);
     let width = (canvas.width() - 64.0).clamp(120.0, 560.0);
     let left = canvas.left() + 0.5 * (canvas.width() - width);
-    let area = Rect::from_min_size(pos2(left, canvas.top() + 24.0), vec2(width, 10.0));
+    let area = Rect::from_min_size(pos2(left, canvas.top() + 44.0), vec2(width, 10.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(area));
     let frame =
         Frame::popup(child.style()).inner_margin(Margin::same(14)).stroke(Stroke::new(1.0, palette.error));

@@ -164,7 +164,7 @@ impl Document {
         let path = absolute(path);
         let base = path.parent().map_or_else(working_directory, Path::to_owned);
         let doc = rebase(&self.doc, &self.base, &base);
-        scene_file::save(&path, &doc).map_err(|error| error.to_string())?;
+        scene_file::save(&path, &doc).map_err(|error| format!("The scene was not saved: {error}"))?;
         if doc != self.doc {
             self.doc = doc.clone();
             self.history = History::new(doc.clone());

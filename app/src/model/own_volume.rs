@@ -1,5 +1,6 @@
 //! What becomes of a scene when its volume is replaced by a person's own.
 
+use glam::Vec3;
 use majorant_core::io::volume::{Limits, VoxelGrid, read_volume, validate_density};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
 use majorant_core::spectrum::{Quantity, Spectrum};
@@ -84,24 +85,33 @@ fn move_about_origin(doc: &mut SceneDoc) {
     moved(&mut doc.camera.target);
 }
 
-/// Moves the camera along its line of sight until the box about fills the picture: three quarters of
-/// the sphere around it do, as the corners of volumes are mostly empty.
+/// Moves the camera along its line of sight, as close as the whole box stays in the picture.
 fn frame(doc: &mut SceneDoc, edges: [f32; 3]) {
-    let radius = 0.75 * 0.5 * edges.iter().map(|e| e * e).sum::<f32>().sqrt();
+    /// Corners of volumes are mostly empty: they may leave the picture by this much.
+    const FILL: f32 = 1.06;
+    let camera = &mut doc.camera;
+    let origin = Vec3::from(camera.origin);
+    let Some(back) = origin.try_normalize() else { return };
+    let right = Vec3::from(camera.up).cross(back).normalize_or(back.any_orthonormal_vector());
+    let up = back.cross(right);
     let aspect = doc.film.height as f32 / doc.film.width.max(1) as f32;
-    let half_width = (0.5 * doc.camera.fov_deg.to_radians()).tan();
-    let half_angle = (half_width * aspect.min(1.0)).atan();
-    let distance = radius / half_angle.sin();
-    let length = doc.camera.origin.iter().map(|x| x * x).sum::<f32>().sqrt();
-    if length > 0.0 {
-        doc.camera.origin = doc.camera.origin.map(|x| x * distance / length);
-    }
+    let half_width = FILL * (0.5 * camera.fov_deg.to_radians()).tan();
+    let half_height = half_width * aspect;
+    let distance = (0..8_u8)
+        .map(|corner| {
+            let sign = |axis: u8| if corner >> axis & 1 == 1 { 0.5 } else { -0.5 };
+            let at = Vec3::new(sign(0), sign(1), sign(2)) * Vec3::from(edges);
+            let sideways = (at.dot(right).abs() / half_width).max(at.dot(up).abs() / half_height);
+            at.dot(back) + sideways
+        })
+        .fold(0.0, f32::max);
+    camera.origin = (back * distance).into();
 }
 
 /// A number that reads well.
 fn two_digits(x: f32) -> f32 {
-    let unit = 10f32.powf(x.log10().floor() - 1.0);
-    (x / unit).round() * unit
+    // By way of text, so that it is the number nearest to its two digits.
+    format!("{x:.1e}").parse().unwrap_or(x)
 }
 
 #[cfg(test)]
@@ -132,6 +142,23 @@ mod tests {
         );
         assert!(matches!(filled.lights[0], LightDoc::Sphere { center: [0.0, 1.0, 0.0], .. }));
         assert!(majorant_core::scene::validate(&filled).is_empty());
+    }
+
+    #[test]
+    fn a_tall_volume_stays_in_a_wide_picture() {
+        let tall = Look { edges: [0.3, 1.0, 0.3], ..LOOK };
+        let filled = with_volume(&SceneDoc::default(), "a.vdb".into(), &tall);
+        let distance = filled.camera.origin[2] - 0.15;
+        let width = 2.0 * distance * (0.5 * filled.camera.fov_deg.to_radians()).tan();
+        let height = width * filled.film.height as f32 / filled.film.width as f32;
+        assert!(height > 0.93 && height < 1.0, "{height}");
+    }
+
+    #[test]
+    fn the_scale_has_two_digits() {
+        assert_eq!(two_digits(0.786_13), 0.79);
+        assert_eq!(two_digits(83.7), 84.0);
+        assert_eq!(two_digits(1234.0), 1200.0);
     }
 
     #[test]

@@ -62,7 +62,7 @@ fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     row(ui, "Image size", "Pixels; the render starts over when they change", |ui, _| {
         let film = &mut cx.draft.film;
         // A cross, the button and three gaps.
-        let width = ((ui.available_width() - 66.0) * 0.5).floor();
+        let width = ((ui.available_width() - 56.0) * 0.5).floor();
         let side = |ui: &mut Ui, value: &mut u32, name: &str| {
             let drag = DragValue::new(value)
                 .range(1..=16_384_u32)

@@ -108,7 +108,7 @@ fn grid_ui(ui: &mut Ui, grid: &mut GridRef, lists: &GridLists, commands: &mut Ve
     };
     row(ui, "Grid", "Which of the file's grids is used", |ui, label| {
         let shown = grid.grid.clone().unwrap_or_else(|| "by default".into());
-        let combo = ComboBox::from_id_salt("grid").selected_text(shown).width(ui.available_width() - 26.0);
+        let combo = ComboBox::from_id_salt("grid").selected_text(shown).width(ui.available_width());
         let response = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut grid.grid, None, "by default");
             for name in names {

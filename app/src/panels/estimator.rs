@@ -42,6 +42,10 @@ impl Panel for Estimator {
                 entry.id.clone_into(&mut doc.id);
             }
         }
+        // Below the cards, which stay where they are: one may click back and forth to compare.
+        if let Some(entry) = estimator::find(&doc.id) {
+            hint(ui, entry.reference);
+        }
         ui.add_space(crate::theme::UNIT);
         row(ui, "Components", "What a path carries", |ui, _| {
             let options = [
@@ -116,9 +120,6 @@ fn entry_ui(ui: &mut Ui, entry: &Entry, selected: bool) -> bool {
                 text(ui, RichText::new(entry.name).color(palette.strong));
             });
             text(ui, RichText::new(entry.summary).small().color(palette.text));
-            if selected {
-                text(ui, RichText::new(entry.reference).small().color(palette.weak));
-            }
         });
     let response = ui.interact(frame.response.rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::RadioButton, true, selected, entry.name));

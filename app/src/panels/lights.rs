@@ -1,6 +1,7 @@
 //! The lights: a list to which kinds are added from their templates.
 
 use super::{Column, Cx, Panel, light_fields};
+use crate::lab::{Command, Purpose};
 use crate::theme::Palette;
 use crate::widgets::{callout, hint};
 use egui::collapsing_header::CollapsingState;
@@ -52,7 +53,13 @@ impl Panel for Lights {
             }
             None => {}
         }
-        add_ui(ui, "Add light", LightDoc::templates(), |light| cx.draft.lights.push(light));
+        add_ui(ui, "Add light", LightDoc::templates(), |light| {
+            // A map without its picture cannot be rendered: ask for one at once.
+            if matches!(light, LightDoc::EnvironmentMap { .. }) {
+                cx.commands.push(Command::Ask(Purpose::EnvironmentMap(cx.draft.lights.len())));
+            }
+            cx.draft.lights.push(light);
+        });
         if cx.draft.lights.len() > 1 {
             hint(ui, "Each sample picks one light; all of them are seen by the camera if visible.");
         }

@@ -2,7 +2,7 @@
 
 use super::lights::{Change, add_ui, card_ui};
 use super::{Column, Cx, Panel};
-use crate::widgets::{SpectrumField, Vector, hint, spectrum_editor};
+use crate::widgets::{SpectrumField, Vector, hint, row, spectrum_editor};
 use egui::Ui;
 use majorant_core::scene::ObjectDoc;
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
@@ -91,11 +91,14 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
 }
 
 fn albedo_ui(ui: &mut Ui, name: &str, albedo: &mut SpectrumDoc, opened: &SpectrumDoc) {
+    let tip = "Reflected share of the light that arrives, 0 to 1";
+    let text = super::extinction::in_words(albedo);
+    row(ui, "Albedo", tip, |ui, _| ui.weak(text));
     let field = SpectrumField {
         name: &format!("{name} albedo"),
         unit: "",
         max: Some(1.0),
-        tip: "Reflected share of the light that arrives, 0 to 1",
+        tip,
         opened,
         quantity: Quantity::Coefficient,
         majorant: None,

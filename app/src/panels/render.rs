@@ -45,7 +45,7 @@ fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let paused = cx.state.status == Status::Paused;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let width = ((ui.available_width() - 8.0) / 3.0).floor();
+        let width = (ui.available_width() - 8.0) / 3.0;
         let mut button = |ui: &mut Ui, on: bool, text: &str, tip: &str, command: Command| {
             let button = Button::new(text).min_size(vec2(width, 24.0));
             if ui.add_enabled(on, button).on_hover_text(tip).on_disabled_hover_text(tip).clicked() {

@@ -19,7 +19,7 @@ pub fn segmented<T: PartialEq + Copy>(
             // The buttons share the width; their text may fill it.
             ui.spacing_mut().button_padding.x = 2.0;
             let count = options.len() as f32;
-            let width = ((ui.available_width() - (count - 1.0)) / count).floor();
+            let width = (ui.available_width() - (count - 1.0)) / count;
             for (index, (option, label, tip)) in options.iter().enumerate() {
                 let selected = *value == *option;
                 let text = RichText::new(*label).color(if selected { palette.strong } else { palette.text });

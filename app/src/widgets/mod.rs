@@ -14,7 +14,7 @@ mod vector;
 
 pub use callout::{badge, callout, hint};
 pub use choice::{segmented, switch};
-pub use number::{format_number, parse_number};
+pub use number::{format_number, format_within, parse_number};
 pub use path_field::path_field;
 pub use phase_lobe::phase_lobe;
 pub use row::row;

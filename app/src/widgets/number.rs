@@ -3,16 +3,42 @@
 /// At most six significant digits, no trailing zeros.
 #[must_use]
 pub fn format_number(value: f64) -> String {
+    format_digits(value, 6)
+}
+
+/// As many of six significant digits as fit into `room` characters, but one at least.
+#[must_use]
+pub fn format_within(value: f64, room: usize) -> String {
+    let texts = (1..=6).rev().map(|digits| format_digits(value, digits));
+    let mut last = String::new();
+    for text in texts {
+        if text.chars().count() <= room {
+            return text;
+        }
+        last = text;
+    }
+    last
+}
+
+fn format_digits(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { value.to_string() };
     }
     if !(1e-4..1e7).contains(&value.abs()) {
-        return format!("{value:e}");
+        let text = format!("{value:.*e}", digits.saturating_sub(1));
+        return match text.split_once('e') {
+            Some((mantissa, exponent)) => format!("{}e{exponent}", without_zeros(mantissa)),
+            None => text,
+        };
     }
-    let decimals = (5 - value.abs().log10().floor() as i32).max(0);
-    let text = format!("{value:.*}", usize::try_from(decimals).unwrap_or(0));
+    let decimals = digits as i32 - 1 - value.abs().log10().floor() as i32;
+    without_zeros(&format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))).to_owned()
+}
+
+/// Without the zeros at the end of a decimal fraction.
+fn without_zeros(text: &str) -> &str {
     match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        true => text.trim_end_matches('0').trim_end_matches('.'),
         false => text,
     }
 }
@@ -50,5 +76,19 @@ mod tests {
         assert_eq!(format_number(1.0 / 3.0), "0.333333");
         assert_eq!(format_number(-12.5), "-12.5");
         assert_eq!(format_number(1e-6), "1e-6");
+        // Single precision shows no digits that it does not have.
+        assert_eq!(format_number(1e-6_f32.into()), "1e-6");
+        assert_eq!(format_number(-2.5e9), "-2.5e9");
+    }
+
+    #[test]
+    fn numbers_fit_into_their_room() {
+        assert_eq!(format_within(-0.075_529_1, 7), "-0.0755");
+        assert_eq!(format_within(12.345_678, 7), "12.3457");
+        assert_eq!(format_within(1234.5, 4), "1234");
+        assert_eq!(format_within(-1.234_56e-7, 6), "-1e-7");
+        assert_eq!(format_within(0.5, 7), "0.5");
+        // What does not fit is shown rather than cut.
+        assert_eq!(format_within(1_234_567.0, 3), "1234567");
     }
 }

@@ -22,7 +22,7 @@ pub fn mean_cosine(phase: &Phase) -> f32 {
 /// Draws the lobe. `logarithmic` stretches the radius over three decades below the largest value.
 pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     let palette = Palette::get(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 148.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 168.0), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Phase function lobe"));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, palette.well);
@@ -37,14 +37,16 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     };
     let curve: Vec<_> = values.iter().map(|(a, p)| vec2(a.cos(), -a.sin()) * radius(*p)).collect();
     // The lobe, its origin and the arrow before it share the width, whatever the shape.
-    let left = curve.iter().map(|v| v.x).fold(0.0, f32::min) - 0.35;
-    let right = curve.iter().map(|v| v.x).fold(0.0, f32::max);
-    let half = curve.iter().map(|v| v.y.abs()).fold(0.0, f32::max).max(0.05);
-    let scale = ((rect.width() - 24.0) / (right - left)).min((rect.height() - 20.0) / (2.0 * half));
+    let round = radius(1.0 / (4.0 * PI)).min(1.0);
+    let left = curve.iter().map(|v| v.x).fold(-round, f32::min) - 0.3;
+    let right = curve.iter().map(|v| v.x).fold(round, f32::max);
+    let half = curve.iter().map(|v| v.y.abs()).fold(round.max(0.05), f32::max);
+    // Lines of text above and below.
+    let scale = ((rect.width() - 24.0) / (right - left)).min((rect.height() - 44.0) / (2.0 * half));
     let origin = pos2(rect.center().x - 0.5 * (left + right) * scale, rect.center().y);
     let outline: Vec<Pos2> = curve.iter().map(|v| origin + *v * scale).collect();
 
-    let isotropic = radius(1.0 / (4.0 * PI)) * scale;
+    let isotropic = round * scale;
     let circle: Vec<Pos2> = values.iter().map(|(a, _)| origin + vec2(a.cos(), a.sin()) * isotropic).collect();
     painter.extend(Shape::dashed_line(&circle, Stroke::new(1.0, palette.line), 3.0, 3.0));
     fill(&painter, origin, &outline, palette.accent.gamma_multiply(0.22));
@@ -59,12 +61,18 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
         painter.text(at, align, text, FontId::proportional(12.0), palette.weak);
     };
     text(rect.left_top() + vec2(8.0, 5.0), Align2::LEFT_TOP, "light arrives".into());
-    let mean = format!("mean cosine {:+.3}", mean_cosine(phase));
+    let mean = format!("mean cosine {}", signed(mean_cosine(phase)));
     text(rect.right_top() + vec2(-8.0, 5.0), Align2::RIGHT_TOP, mean);
     let peak = format!("largest {largest:.3} /sr");
     text(rect.right_bottom() + vec2(-8.0, -5.0), Align2::RIGHT_BOTTOM, peak);
     text(rect.left_bottom() + vec2(8.0, -5.0), Align2::LEFT_BOTTOM, "dashed: isotropic".into());
     response.on_hover_text("p(cos θ) by direction; its integral over the sphere is 1");
+}
+
+/// Three decimals with a sign, but none before a zero.
+fn signed(value: f32) -> String {
+    let text = format!("{value:+.3}");
+    if text.ends_with("0.000") { "0".into() } else { text.replace('-', "−") }
 }
 
 /// The lobe is a star about its origin, so a fan fills it even where it is not convex.
@@ -91,5 +99,12 @@ mod tests {
             let phase = Phase::new(&PhaseDoc::HenyeyGreenstein { g });
             assert!((mean_cosine(&phase) - g).abs() < 1e-3);
         }
+    }
+
+    #[test]
+    fn a_mean_of_zero_has_no_sign() {
+        assert_eq!(signed(-1e-9), "0");
+        assert_eq!(signed(0.5), "+0.500");
+        assert_eq!(signed(-0.47), "−0.470");
     }
 }

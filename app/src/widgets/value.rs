@@ -3,11 +3,12 @@
 //! "Back" is to the scene as it was opened or saved, so that a button shows only where something was
 //! changed; the default is in the menu of a right click.
 
-use super::number::{format_number, parse_number};
+use super::number::{format_number, format_within, parse_number};
 use super::row::row;
 use crate::theme::Palette;
 use egui::{
-    Align, Button, DragValue, Id, Layout, Rect, Response, RichText, Ui, UiBuilder, emath::Numeric, pos2, vec2,
+    Align, Button, DragValue, Id, Layout, Rect, Response, RichText, TextStyle, Ui, UiBuilder, emath::Numeric,
+    pos2, vec2,
 };
 use std::ops::RangeInclusive;
 
@@ -118,6 +119,8 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
     }
 }
 
+/// A number that is dragged or typed, as wide as it is told to be: long numbers are shortened, and the
+/// whole value is kept unless it is changed.
 pub(super) fn drag<N: Numeric>(
     ui: &mut Ui,
     value: &mut N,
@@ -127,6 +130,7 @@ pub(super) fn drag<N: Numeric>(
     width: f32,
 ) -> Response {
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let before = *value;
     let mut drag = DragValue::new(value)
         .speed(speed)
         .range(range.clone())
@@ -135,10 +139,21 @@ pub(super) fn drag<N: Numeric>(
         .update_while_editing(false)
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .custom_parser(|text| parse_number(text, unit));
+    let font = TextStyle::Monospace.resolve(ui.style());
+    let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, '0')).max(1.0);
+    let inner = width - 2.0 * ui.spacing().button_padding.x;
+    let room = (inner / glyph) as usize - suffix.chars().count().min((inner / glyph) as usize);
+    let text = |value: f64| format_within(value, room);
     if !N::INTEGRAL {
-        drag = drag.custom_formatter(|value, _| format_number(value));
+        drag = drag.custom_formatter(move |value, _| text(value));
     }
-    ui.add(drag.suffix(suffix))
+    let response = ui.add(drag.suffix(suffix));
+    // Leaving the field with its text untouched must not round the value to that text.
+    let untouched = !N::INTEGRAL && text(before.to_f64()) == text(value.to_f64());
+    if untouched && response.lost_focus() {
+        *value = before;
+    }
+    response
 }
 
 /// A hairline at the foot of the field that shows where the value lies in its range.

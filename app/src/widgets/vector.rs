@@ -49,20 +49,22 @@ impl<'a> Vector<'a> {
         let Self { label, name, value, default, opened, unit, speed, tip } = self;
         row(ui, label, tip, |ui, _| {
             let gap = 4.0;
-            let width = ((ui.available_width() - 2.0 * gap) / 3.0).floor();
+            let width = (ui.available_width() - 2.0 * gap) / 3.0;
             let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
-            let outer = ui.spacing().item_spacing.x;
+            let outer = (ui.spacing().item_spacing.x, ui.spacing().button_padding.x);
+            // Three numbers share the room of one.
+            ui.spacing_mut().button_padding.x = 3.0;
             let mut first = None;
             for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {
                 ui.spacing_mut().item_spacing.x = gap;
                 let field = drag(ui, &mut value[i], &range, speed, unit, width);
                 let field = field.accessible_name(format!("{name} {axis}"));
-                let field =
-                    if tip.is_empty() { field } else { field.on_hover_text(format!("{axis}: {tip}")) };
+                let exact = format_number(f64::from(value[i]));
+                let field = field.on_hover_text(format!("{axis} = {exact}\n{tip}").trim_end());
                 reset_menu(&field, value, opened, default, text);
                 first.get_or_insert(field);
             }
-            ui.spacing_mut().item_spacing.x = outer;
+            (ui.spacing_mut().item_spacing.x, ui.spacing_mut().button_padding.x) = outer;
             if let Some(field) = first
                 && *value != opened
                 && reset_button(ui, &field, &name, &text(opened))

@@ -5,7 +5,8 @@ use super::{SpectrumField, model};
 use crate::theme::Palette;
 use crate::widgets::number::format_number;
 use egui::{
-    CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    CursorIcon, EventFilter, Id, Key, Pos2, Rect, Response, Sense, Stroke, TextStyle, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
 use majorant_core::spectrum::ControlPoint;
 
@@ -52,6 +53,10 @@ pub(super) fn grip_ui(
     paint_grip(ui, &response, centre);
     let text = format!("{} nm: {}", format_number(point.lambda_nm.into()), format_number(point.value.into()));
     let dragged = response.dragged();
+    if dragged {
+        // A tooltip would be hidden while the button is down.
+        paint_value(ui, axes, centre, &text);
+    }
     response.on_hover_and_drag_cursor(CursorIcon::Move).on_hover_text(text);
     dragged
 }
@@ -74,6 +79,20 @@ fn nudge(ui: &Ui, response: &Response, axes: &Axes, points: &mut [ControlPoint],
         };
         model::shift(points, index, to, max);
     }
+}
+
+/// Writes a point's numbers beside it, on the side that has room.
+fn paint_value(ui: &Ui, axes: &Axes, at: Pos2, text: &str) {
+    let palette = Palette::get(ui);
+    let font = TextStyle::Small.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, palette.strong);
+    let gap = vec2(12.0, -0.5 * galley.size().y);
+    let right = at.x < axes.frame.center().x;
+    let x = if right { at.x + gap.x } else { at.x - gap.x - galley.size().x };
+    let y = (at.y + gap.y).clamp(axes.frame.top() + 2.0, axes.frame.bottom() - galley.size().y - 2.0);
+    let back = Rect::from_min_size(pos2(x, y), galley.size()).expand2(vec2(4.0, 1.0));
+    ui.painter().rect_filled(back, 3.0, palette.bar.gamma_multiply(0.9));
+    ui.painter().galley(pos2(x, y), galley, palette.strong);
 }
 
 fn paint_grip(ui: &Ui, response: &Response, centre: Pos2) {

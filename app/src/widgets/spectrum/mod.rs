@@ -76,7 +76,9 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
                 *doc = model::converted(doc, kind);
             }
         });
-        let button = Button::new("Presets").min_size(vec2(ui.available_width(), 0.0));
+        let preset = matches!(doc, SpectrumDoc::Preset(_));
+        let button = Button::selectable(preset, "Presets").frame_when_inactive(true);
+        let button = button.min_size(vec2(ui.available_width(), 0.0));
         let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
             for preset in presets::within(field.max.unwrap_or(f32::INFINITY)) {
                 let chosen = *doc == SpectrumDoc::Preset(preset.id.into());
