@@ -19,7 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     id: "independent",
     name: "Independent tracking",
     summary: "One colour component per path; simple, and the source of colour noise.",
-    reference: "Miller, Georgiev & Jarosz 2019, section 5.1; report, figure 2",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Horešovský's report, figure 2",
     kernel: dispatch::single::<Independent>,
 };
 

@@ -19,7 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     id: "nee",
     name: "NEE",
     summary: "Connects every scattering vertex to a light; wins for small lights.",
-    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; report, figure 3",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
     kernel: dispatch::family::<Nee>,
 };
 

@@ -20,7 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     id: "spectral-mis",
     name: "Spectral MIS",
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
-    reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; report, figure 2",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
     kernel: dispatch::family::<SpectralMis>,
 };
 

@@ -21,7 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     id: "uni-nee-mis",
     name: "Uni+NEE MIS",
     summary: "Unidirectional and next-event estimation combined, over all components; robust.",
-    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; report, algorithms 4–6, figure 3",
+    reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
     kernel: dispatch::family::<UniNeeMis>,
 };
 

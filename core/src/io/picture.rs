@@ -19,7 +19,9 @@ pub enum PictureError {
         source: std::io::Error,
     },
     /// The file is not a picture that is understood.
-    #[error("{file}: not a usable picture: {reason}")]
+    #[error(
+        "{file}: not a usable picture: {reason}. Use a scan-line or tiled EXR, or a Radiance HDR, with R, G and B."
+    )]
     Invalid {
         /// The file.
         file: String,

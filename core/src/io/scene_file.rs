@@ -89,7 +89,10 @@ pub fn to_toml(doc: &SceneDoc) -> String {
 /// # Errors
 /// When the file cannot be written.
 pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
-    std::fs::write(path, to_toml(doc))
+    // Written beside it and then renamed: a full disk must not cost the scene that was there.
+    let beside = path.with_extension("toml.part");
+    std::fs::write(&beside, to_toml(doc))
+        .and_then(|()| std::fs::rename(&beside, path))
         .map_err(|source| SceneFileError::Io { file: path.display().to_string(), source })
 }
 

@@ -42,6 +42,17 @@ pub struct SpectrumField<'a> {
     pub majorant: Option<&'a MajorantDoc>,
 }
 
+impl SpectrumField<'_> {
+    /// What presets have to suit.
+    fn use_(&self) -> presets::Use {
+        match (self.quantity, self.max) {
+            (Quantity::Radiance, _) => presets::Use::Light,
+            (Quantity::Coefficient, Some(_)) => presets::Use::Albedo,
+            (Quantity::Coefficient, None) => presets::Use::Extinction,
+        }
+    }
+}
+
 /// Shows the editor.
 pub fn spectrum_editor(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
     ui.push_id(field.name, |ui| {
@@ -80,7 +91,7 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         let button = Button::selectable(preset, "Presets").frame_when_inactive(true);
         let button = button.min_size(vec2(ui.available_width(), 0.0));
         let (response, _) = MenuButton::from_button(button).ui(ui, |ui| {
-            for preset in presets::within(field.max.unwrap_or(f32::INFINITY)) {
+            for preset in presets::suiting(field.use_()) {
                 let chosen = *doc == SpectrumDoc::Preset(preset.id.into());
                 if ui.selectable_label(chosen, preset.id).on_hover_text(preset.summary).clicked() {
                     *doc = SpectrumDoc::Preset(preset.id.into());
