@@ -12,6 +12,17 @@ use std::path::{Path, PathBuf};
 /// Independent repeats of every render.
 pub const BATCHES: usize = 32;
 
+/// How a test scene begins that looks at the origin from outside, in 8 × 8 pixels.
+pub const CAMERA: &str = "
+majorant = 1
+[camera]
+origin = [0.4, 0.3, 2.2]
+fov_deg = 30.0
+[film]
+width = 8
+height = 8
+";
+
 /// The folder of the tests.
 pub fn tests_folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

@@ -2,11 +2,12 @@
 //!
 //! A render is repeated with independent seeds; each repeat's block means are batch means, whose own
 //! scatter gives the standard error. A family of `n` comparisons is judged at the two-sided
-//! significance that Šidák's correction leaves to each: 1 − (1 − α)^(1/n). Seeds are fixed, so a test
-//! passes always or never; α is how often an arbitrary choice of seeds would fail a true program.
+//! significance that Šidák's correction leaves to each: 1 − (1 − α)^(1/n). Seeds are fixed, so on one
+//! machine a test passes always or never. Another machine's exponentials may round otherwise, which is
+//! as good as another seed: α is how often that would fail a true program.
 
 /// False alarms per family and choice of seeds.
-pub const ALPHA: f64 = 1e-3;
+pub const ALPHA: f64 = 1e-5;
 
 /// Mean and standard error of the mean.
 pub fn mean_and_error(batches: &[f64]) -> (f64, f64) {
@@ -86,17 +87,17 @@ mod tests {
 
     #[test]
     fn quantiles_match_tables() {
-        // t for 31 degrees of freedom, two-sided 0.001: 3.633.
-        assert!((sidak_t(1, 31.0) - 3.633).abs() < 2e-3, "{}", sidak_t(1, 31.0));
+        // t for 31 degrees of freedom, two-sided 10⁻⁵: 5.267.
+        assert!((sidak_t(1, 31.0) - 5.267).abs() < 5e-3, "{}", sidak_t(1, 31.0));
         assert!(sidak_t(100, 31.0) > sidak_t(10, 31.0));
-        // 1000 degrees of freedom: 3.300.
-        assert!((sidak_t(1, 1000.0) - 3.300).abs() < 2e-3, "{}", sidak_t(1, 1000.0));
+        // 1000 degrees of freedom: 4.440.
+        assert!((sidak_t(1, 1000.0) - 4.440).abs() < 5e-3, "{}", sidak_t(1, 1000.0));
     }
 
     #[test]
     fn a_bias_is_seen_and_a_coincidence_is_not() {
         let c = |difference| Comparison { difference, error: 0.01 };
         assert!(judge(&[c(0.02), c(-0.03)], 31.0, 0.0).agrees());
-        assert!(!judge(&[c(0.0), c(0.06)], 31.0, 0.0).agrees());
+        assert!(!judge(&[c(0.0), c(0.08)], 31.0, 0.0).agrees());
     }
 }

@@ -94,7 +94,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     let doc = Arc::new(doc);
-    let snapshot = render(Arc::clone(&doc), source.library)?;
+    let snapshot = render(Arc::clone(&doc), source.resources)?;
     for path in &arguments.output {
         writer(path)?(path, &snapshot, &doc)?;
     }

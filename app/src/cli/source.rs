@@ -8,7 +8,7 @@ use std::path::Path;
 /// A scene with the library that resolves its files.
 pub(super) struct Source {
     pub doc: SceneDoc,
-    pub library: Library,
+    pub resources: Library,
 }
 
 /// Loads a scene by embedded name or path; an existing file comes first.
@@ -16,12 +16,12 @@ pub(super) fn load(scene: &str) -> Result<Source, Failure> {
     let path = Path::new(scene);
     if path.exists() {
         let doc = scene_file::load(path)?;
-        let library = Library::default().with_base(path.parent().unwrap_or(Path::new("")));
-        return Ok(Source { doc, library });
+        let resources = Library::default().with_base(path.parent().unwrap_or(Path::new("")));
+        return Ok(Source { doc, resources });
     }
     if let Some(embedded) = embedded::find(scene) {
         let doc = scene_file::parse(embedded.toml, embedded.name)?;
-        return Ok(Source { doc, library: Library::default() });
+        return Ok(Source { doc, resources: Library::default() });
     }
     let names: Vec<_> = embedded::SCENES.iter().map(|s| s.name).collect();
     Err(Failure::Message(format!(

@@ -9,27 +9,27 @@ use std::time::SystemTime;
 
 /// Keeps what is expensive to make.
 pub(super) struct Keeper {
-    library: Library,
+    resources: Library,
     pools: BTreeMap<usize, Arc<ThreadPool>>,
     /// The newest frozen scene, with the document and the times of the files that it came from.
     frozen: Option<(SceneDoc, Vec<Option<SystemTime>>, Arc<Scene>)>,
 }
 
 impl Keeper {
-    pub fn new(library: Library) -> Self {
-        Self { library, pools: BTreeMap::new(), frozen: None }
+    pub fn new(resources: Library) -> Self {
+        Self { resources, pools: BTreeMap::new(), frozen: None }
     }
 
     /// Freezes a document, or finds it frozen already.
     pub fn scene(&mut self, doc: &SceneDoc) -> Result<Arc<Scene>, String> {
-        let (key, stamps) = (doc.scene_part(), self.library.stamps(doc));
+        let (key, stamps) = (doc.scene_part(), self.resources.stamps(doc));
         if let Some((known, known_stamps, scene)) = &self.frozen
             && *known == key
             && *known_stamps == stamps
         {
             return Ok(Arc::clone(scene));
         }
-        let scene = Arc::new(build(doc, &mut self.library).map_err(|e| e.to_string())?);
+        let scene = Arc::new(build(doc, &mut self.resources).map_err(|e| e.to_string())?);
         self.frozen = Some((key, stamps, Arc::clone(&scene)));
         Ok(scene)
     }
