@@ -176,7 +176,7 @@ fn agreement_scenes() -> Vec<(&'static str, SceneDoc)> {
 fn estimators_agree_on_three_scenes() {
     for (name, base) in agreement_scenes() {
         let scene = frozen(&base, Path::new(HERE));
-        let reference = Blocks::render(&scene, &base, "uni-nee-mis", 192, 2, 2);
+        let reference = Blocks::render(&scene, &base, "uni-nee-mis", 384, 2, 2);
         for entry in REGISTRY {
             for (absorption, roulette) in
                 [(Absorption::Analogue, None), (Absorption::Weighted, None), (Absorption::Weighted, Some(2))]
@@ -185,7 +185,7 @@ fn estimators_agree_on_three_scenes() {
                 doc.estimator.absorption = absorption;
                 doc.estimator.roulette_depth = roulette;
                 doc.render.seed = 1;
-                let blocks = Blocks::render(&scene, &doc, entry.id, 96, 2, 2);
+                let blocks = Blocks::render(&scene, &doc, entry.id, 192, 2, 2);
                 let verdict = judge(&blocks.against(&reference), DOF, 0.0);
                 println!("{name}: {} {absorption:?} {roulette:?}: {verdict:?}", entry.id);
                 assert!(verdict.agrees(), "{name}: {} {absorption:?}: {verdict:?}", entry.id);

@@ -17,7 +17,9 @@ fn panorama() -> EnvironmentMap {
 }
 
 fn lights() -> Vec<(LightKind, Option<Shape>)> {
-    let rectangle = Rectangle::facing(Vec3::new(0.4, 1.2, 0.1), Vec3::ZERO, Vec3::Y, [1.0, 0.6]);
+    // Seen at a slant, so that a forgotten cosine shows.
+    let rectangle =
+        Rectangle::facing(Vec3::new(0.4, 1.2, 0.1), Vec3::new(1.4, 0.5, 0.1), Vec3::Y, [1.0, 0.6]);
     let sphere = Sphere { center: Vec3::new(-0.5, 0.6, 1.0), radius: 0.4 };
     let one = Spectrum::constant(1.0);
     vec![
