@@ -159,3 +159,68 @@ fn internal_error(panic: &(dyn std::any::Any + Send)) -> String {
     let text = text.unwrap_or_else(|| "no message".into());
     format!("The renderer stopped on an internal error: {text}. Edit the scene to start again.")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::{Kernel, PathEstimate, PathIndex};
+    use crate::scene::{Scene, SceneDoc};
+    use crate::transport::Wanted;
+    use std::sync::Arc;
+
+    fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+        panic!("no estimate for pixel {} {}", at.x, at.y)
+    }
+
+    fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+        let value = if at.x == 1 && at.sample == 0 { f32::NAN } else { 0.5 };
+        PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1 }
+    }
+
+    /// A coordinator with one view of 3 × 2 pixels that is traced by `kernel`.
+    fn with_kernel(mailbox: &Mailbox, kernel: Kernel) -> (Coordinator<'_>, ViewId) {
+        let mut doc = SceneDoc::default();
+        (doc.film.width, doc.film.height) = (3, 2);
+        let id = ViewId(0);
+        let generation = mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false });
+        let mut keeper = Keeper::new(Library::default());
+        let scene = keeper.scene(&doc).unwrap();
+        let pool = keeper.pool(Some(2)).unwrap();
+        let settings = Settings::new(&doc.estimator, 0);
+        let current = mailbox.current(id);
+        let view = Active::new((generation, current), scene, (kernel, settings), pool, &doc.render);
+        let views = BTreeMap::from([(id, view)]);
+        (Coordinator { mailbox, keeper, views, paused: BTreeSet::new() }, id)
+    }
+
+    #[test]
+    fn a_panicking_worker_becomes_a_status_and_the_coordinator_lives_on() {
+        let mailbox = Mailbox::new(Box::new(|| {}));
+        let (mut coordinator, id) = with_kernel(&mailbox, breaks);
+        coordinator.advance_next();
+        let Status::Failed(message) = mailbox.state(id).status else { panic!("it should have failed") };
+        assert!(message.contains("no estimate for pixel"), "{message}");
+        // Nothing is left to advance, and the next job starts as ever.
+        coordinator.advance_next();
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: false };
+        let generation = mailbox.submit(id, job.clone());
+        coordinator.start(id, generation, &job);
+        assert_eq!(mailbox.state(id).status, Status::Rendering);
+    }
+
+    #[test]
+    fn samples_that_are_not_finite_are_counted_and_located() {
+        let mailbox = Mailbox::new(Box::new(|| {}));
+        let (mut coordinator, id) = with_kernel(&mailbox, not_a_number);
+        coordinator.advance_next();
+        let first = mailbox.state(id).snapshot.unwrap();
+        assert_eq!(first.tally.non_finite, 2);
+        let places: Vec<_> = first.tally.located.iter().map(|n| (n.x, n.y, n.sample)).collect();
+        assert_eq!(places, [(1, 0, 0), (1, 1, 0)]);
+        // A pixel without any value shows as one, until it gets its first.
+        assert!(first.mean[1][0].is_nan() && first.mean[0] == [0.5; 3]);
+        coordinator.advance_next();
+        let later = mailbox.state(id).snapshot.unwrap();
+        assert_eq!((later.mean[1], later.tally.non_finite), ([0.5; 3], 2));
+    }
+}
