@@ -100,7 +100,8 @@ pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
 /// written as in a scene file; a word that is not TOML is taken as text.
 ///
 /// # Errors
-/// When a key does not exist or a value does not fit; the first such override is named.
+/// When a key does not exist, a value does not fit it, or all together make no sense; the override to
+/// blame is named.
 pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc, SceneFileError> {
     let mut doc = doc.clone();
     for assignment in assignments {
@@ -110,14 +111,24 @@ pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc,
             .ok_or_else(|| failed("write KEY=VALUE, e.g. medium.majorant.factor=2".into()))?;
         let mut tree = toml::Value::try_from(&doc).map_err(|e| failed(e.to_string()))?;
         set(&mut tree, path.trim(), read_value(value.trim())).map_err(failed)?;
-        let changed: SceneDoc =
-            tree.try_into().map_err(|e: toml::de::Error| failed(e.message().to_owned()))?;
-        if let Some(problem) = validate(&changed).into_iter().next() {
-            return Err(failed(problem.to_string()));
-        }
-        doc = changed;
+        doc = tree.try_into().map_err(|e: toml::de::Error| failed(e.message().to_owned()))?;
     }
-    Ok(doc)
+    // Only together do they have to make sense: a width may need the height that comes after it.
+    match validate(&doc).into_iter().next() {
+        None => Ok(doc),
+        Some(problem) => {
+            let touches = |a: &&String| a.starts_with(&problem.path) || problem.path.starts_with(key_of(a));
+            let culprit = assignments.iter().rev().find(touches).or(assignments.last());
+            Err(SceneFileError::Override {
+                assignment: culprit.cloned().unwrap_or_default(),
+                message: problem.to_string(),
+            })
+        }
+    }
+}
+
+fn key_of(assignment: &str) -> &str {
+    assignment.split_once('=').map_or(assignment, |(key, _)| key.trim())
 }
 
 fn read_value(text: &str) -> toml::Value {
