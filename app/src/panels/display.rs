@@ -40,7 +40,7 @@ impl Panel for Display {
             segmented(ui, "Tone curve", &mut view.tone, &options);
         });
         let tip = "Display gamma instead of the sRGB curve";
-        optional(ui, "Gamma", &mut view.gamma, cx.opened.view.gamma, 2.2, "sRGB curve", tip, |v| {
+        optional(ui, "Gamma", (&mut view.gamma, cx.opened.view.gamma), 2.2, "sRGB curve", tip, |v| {
             v.range(0.2..=5.0)
         });
     }

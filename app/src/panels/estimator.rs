@@ -77,15 +77,14 @@ impl Panel for Estimator {
 fn path_length_ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     egui::CollapsingHeader::new(RichText::new("Path length").small()).show_unindented(ui, |ui| {
         let depth = "Most segments of a path: 1 is emission only, 2 is single scattering";
-        optional(ui, "Max depth", &mut doc.max_depth, opened.max_depth, 8, "unlimited", depth, |v| {
+        optional(ui, "Max depth", (&mut doc.max_depth, opened.max_depth), 8, "unlimited", depth, |v| {
             v.range(1.0..=10_000.0)
         });
         let roulette = "Ends faint paths at random after this many scatterings; unbiased";
         optional(
             ui,
             "Roulette from",
-            &mut doc.roulette_depth,
-            opened.roulette_depth,
+            (&mut doc.roulette_depth, opened.roulette_depth),
             16,
             "never",
             roulette,

@@ -9,7 +9,7 @@ pub fn placement_ui(ui: &mut Ui, placement: &mut PlacementDoc, opened: &Placemen
     let title = egui::RichText::new("Placement").small();
     egui::CollapsingHeader::new(title).id_salt("placement").show_unindented(ui, |ui| {
         let tip = "Centres the box on the origin and scales its longest side to this length";
-        optional(ui, "Fit", &mut placement.fit, opened.fit, 1.0, "as stored in the file", tip, |v| {
+        optional(ui, "Fit", (&mut placement.fit, opened.fit), 1.0, "as stored in the file", tip, |v| {
             v.range(1e-4..=f64::from(f32::MAX)).logarithmic()
         });
         if placement.matrix.is_some() {

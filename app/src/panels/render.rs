@@ -149,15 +149,15 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     egui::CollapsingHeader::new(title).id_salt("limits").show_unindented(ui, |ui| {
         let (render, opened) = (&mut cx.draft.render, &cx.opened.render);
         let tip = "Rendering stops after this many samples per pixel; more can be added later";
-        optional(ui, "Stop at", &mut render.spp, opened.spp, 1024, "no sample limit", tip, |v| {
+        optional(ui, "Stop at", (&mut render.spp, opened.spp), 1024, "no sample limit", tip, |v| {
             v.unit("spp").range(1.0..=1e9)
         });
         let tip = "Rendering stops after this much time";
-        optional(ui, "Stop after", &mut render.seconds, opened.seconds, 60.0, "no time limit", tip, |v| {
+        optional(ui, "Stop after", (&mut render.seconds, opened.seconds), 60.0, "no time limit", tip, |v| {
             v.unit("s").range(0.1..=1e6).logarithmic()
         });
         let tip = "Worker threads; the picture does not depend on them";
-        optional(ui, "Threads", &mut render.threads, opened.threads, 1, "one per core", tip, |v| {
+        optional(ui, "Threads", (&mut render.threads, opened.threads), 1, "one per core", tip, |v| {
             v.range(1.0..=1024.0)
         });
         let seed = Value::new("Seed", &mut render.seed, 0).opened(opened.seed).range(0.0..=9e15);

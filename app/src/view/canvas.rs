@@ -106,8 +106,7 @@ fn gestures(
     }
     let Some(at) = response.hover_pos() else { return (view, None) };
     let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-    // egui turns Ctrl + wheel into a zoom gesture; Alt + wheel arrives as plain scrolling.
-    #[allow(clippy::float_cmp, reason = "1 is egui's value for no gesture")]
+    // 1 is egui's value for no gesture. It turns Ctrl + wheel into a zoom gesture; Alt + wheel arrives as plain scrolling.
     if pinch != 1.0 {
         return (view, Some(camera_control::dolly(camera, 1.0 / pinch)));
     }

@@ -207,13 +207,12 @@ pub(super) fn reset_button(ui: &mut Ui, field: &Response, name: &str, opened: &s
     button.on_hover_text(format!("Back to {opened}")).accessible_name(format!("Reset {name}")).clicked()
 }
 
-/// A row with an optional number: a switch, and the number while it is on.
-#[allow(clippy::too_many_arguments, reason = "a row of a form")]
+/// A row with an optional number, given with what it was when opened: a switch, and the number while it
+/// is on.
 pub fn optional<N: Numeric + PartialEq>(
     ui: &mut Ui,
     label: &str,
-    value: &mut Option<N>,
-    opened: Option<N>,
+    (value, opened): (&mut Option<N>, Option<N>),
     initial: N,
     off: &str,
     tip: &str,

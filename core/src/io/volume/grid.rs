@@ -43,10 +43,13 @@ pub struct VoxelGrid {
 }
 
 impl VoxelGrid {
-    /// A grid from a file that does not say where it stands: its voxels become cubes, its longest side
-    /// one world unit, and its corner of index (0, 0, 0) the origin. Repairs and counts.
-    pub(super) fn without_place(size: [usize; 3], channels: usize, values: Vec<f32>) -> Self {
-        let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
+    /// A grid of a format that holds one unnamed box of cell-centred values. Repairs and counts.
+    pub(super) fn cell_centred(
+        size: [usize; 3],
+        channels: usize,
+        values: Vec<f32>,
+        world_from_index: DAffine3,
+    ) -> Self {
         let mut grid = Self {
             name: String::new(),
             size,
@@ -54,7 +57,7 @@ impl VoxelGrid {
             values,
             min_index: [0; 3],
             background: 0.0,
-            world_from_index: DAffine3::from_scale(DVec3::splat(1.0 / longest)),
+            world_from_index,
             convention: SampleConvention::CellCentred,
             level_set: false,
             repaired: 0,
@@ -62,6 +65,13 @@ impl VoxelGrid {
         };
         grid.repair_and_count();
         grid
+    }
+
+    /// The same from a file that does not say where it stands: voxels become cubes, the longest side
+    /// one world unit, and the corner of index (0, 0, 0) the origin.
+    pub(super) fn without_place(size: [usize; 3], channels: usize, values: Vec<f32>) -> Self {
+        let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
+        Self::cell_centred(size, channels, values, DAffine3::from_scale(DVec3::splat(1.0 / longest)))
     }
 
     /// Number of voxels.

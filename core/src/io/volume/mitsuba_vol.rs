@@ -17,7 +17,7 @@ use half::f16;
 
 use super::cursor::Cursor;
 use super::error::{Fault, VolumeError};
-use super::grid::{SampleConvention, VoxelGrid};
+use super::grid::VoxelGrid;
 use super::limits::{Limits, allocate};
 use super::npy::{chunks, data};
 
@@ -82,21 +82,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
             .at(4));
         }
     }
-    let mut grid = VoxelGrid {
-        name: String::new(),
-        size,
-        channels,
-        values,
-        min_index: [0; 3],
-        background: 0.0,
-        world_from_index,
-        convention: SampleConvention::CellCentred,
-        level_set: false,
-        repaired: 0,
-        negative: 0,
-    };
-    grid.repair_and_count();
-    Ok(grid)
+    Ok(VoxelGrid::cell_centred(size, channels, values, world_from_index))
 }
 
 /// World from index: index (0, 0, 0) at the box's minimum, `size` at its maximum.
