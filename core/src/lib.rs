@@ -11,6 +11,7 @@
 //! Rooms follow concepts: one estimator, one medium, one phase function, one light is one file.
 //! Imports point one way, along the arrows. Nothing here knows a window.
 
+pub mod check;
 pub mod estimator;
 pub mod film;
 pub mod io;
@@ -38,7 +39,7 @@ mod tests {
         &["transport"],
         &["estimator"],
         &["io"],
-        &["session"],
+        &["session", "check"],
     ];
 
     fn layer(room: &str) -> usize {

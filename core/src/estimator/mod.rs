@@ -1,5 +1,5 @@
 //! Estimators of light transport, one file each. A line in [`REGISTRY`] adds one: pickers, the
-//! command line and the tests iterate it.
+//! command line, the self-check and the tests iterate it.
 
 mod dispatch;
 mod independent;
@@ -11,7 +11,7 @@ pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::scene::{self, Problem, SceneDoc};
+use crate::scene::{self, Problem, SceneDoc, WhenExceeded};
 use crate::spectrum::{Components, Sampled};
 use crate::transport::{Trace, World};
 
@@ -26,8 +26,26 @@ pub struct Entry {
     pub summary: &'static str,
     /// Where it comes from.
     pub reference: &'static str,
+    /// Why its estimate of a document's image is biased, if it is.
+    pub bias_of: fn(&SceneDoc) -> Option<&'static str>,
     /// Traces one path.
     pub kernel: Kernel,
+}
+
+impl Entry {
+    /// Why the estimate of a document's image is biased: by a choice in the document, or because the
+    /// estimator is. `None` means that its expectation is the true image.
+    #[must_use]
+    pub fn bias(&self, doc: &SceneDoc) -> Option<&'static str> {
+        (self.bias_of)(doc)
+    }
+}
+
+/// What biases every estimator that samples free flights by a majorant: cutting the medium off at it.
+fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
+    let majorant = &doc.medium.majorant;
+    let cut = majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp;
+    cut.then_some("the majorant is clamped")
 }
 
 /// Every estimator, in the order that pickers show.

@@ -9,7 +9,7 @@
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 
-use super::{Entry, Estimator, dispatch};
+use super::{Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "NEE",
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
+    bias_of: clamped_majorant,
     kernel: dispatch::family::<Nee>,
 };
 

@@ -10,7 +10,7 @@
 //! lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
 
-use super::{Entry, Estimator, dispatch};
+use super::{Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Spectral MIS",
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
+    bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralMis>,
 };
 

@@ -11,7 +11,7 @@
 //! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
 //! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
 
-use super::{Entry, Estimator, dispatch};
+use super::{Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
@@ -22,6 +22,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Uni+NEE MIS",
     summary: "Unidirectional and next-event estimation combined, over all components; robust.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
+    bias_of: clamped_majorant,
     kernel: dispatch::family::<UniNeeMis>,
 };
 

@@ -6,7 +6,7 @@ use crate::light::Panorama;
 use crate::medium::{Grid, Lattice};
 use crate::scene::{GridRef, LightDoc, PlacedGrid, ResourceError, Resources, SceneDoc};
 use glam::{Affine3A, DAffine3, DVec3};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -28,6 +28,9 @@ pub struct Library {
     scalar: HashMap<Key, PlacedGrid<1>>,
     rgb: HashMap<Key, PlacedGrid<3>>,
     panoramas: HashMap<Key, (Arc<Panorama>, Vec<String>)>,
+    /// Files that exist in memory only, by the name that scenes use.
+    in_memory: BTreeMap<String, Arc<[u8]>>,
+    pictures_in_memory: BTreeMap<String, Arc<Panorama>>,
 }
 
 /// Files of one kind that are kept; a student flips between a few clouds.
@@ -38,6 +41,20 @@ impl Library {
     #[must_use]
     pub fn with_base(mut self, base: impl Into<PathBuf>) -> Self {
         self.base = base.into();
+        self
+    }
+
+    /// The same library with a volume in memory, found by `name` before any file.
+    #[must_use]
+    pub fn with_volume(mut self, name: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
+        self.in_memory.insert(name.to_owned(), bytes.into());
+        self
+    }
+
+    /// The same library with a picture of the surroundings in memory, found by `name` before any file.
+    #[must_use]
+    pub fn with_panorama(mut self, name: &str, panorama: Panorama) -> Self {
+        self.pictures_in_memory.insert(name.to_owned(), Arc::new(panorama));
         self
     }
 
@@ -64,7 +81,7 @@ impl Library {
             return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
         let grid = key.grid.as_deref();
-        let read = match embedded::volume(file) {
+        let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
             Some(bytes) => volume::read_volume_bytes(bytes, file, grid, &self.limits),
             None if file.starts_with(embedded::PREFIX) => {
                 let names: Vec<_> = embedded::VOLUMES.iter().map(|v| v.name).collect();
@@ -176,6 +193,9 @@ impl Resources for Library {
     }
 
     fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError> {
+        if let Some(picture) = self.pictures_in_memory.get(file) {
+            return Ok((Arc::clone(picture), Vec::new()));
+        }
         let key = self.key(file, None);
         if let Some(kept) = self.panoramas.get(&key) {
             return Ok(kept.clone());

@@ -1,0 +1,159 @@
+//! Independent repeats of a render, as means over blocks of pixels.
+
+use super::stats::mean_and_error;
+use crate::estimator::{Kernel, PathIndex, Settings};
+use crate::film::NonFinite;
+use crate::scene::Scene;
+use crate::transport::Wanted;
+use rayon::prelude::*;
+
+/// Independent repeats of every render.
+pub const BATCHES: usize = 128;
+
+/// Degrees of freedom of a batch mean's standard error.
+pub const DOF: f64 = (BATCHES - 1) as f64;
+
+/// How an image is divided into blocks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Blocks side by side.
+    pub columns: u32,
+    /// Blocks one above the other.
+    pub rows: u32,
+}
+
+impl Layout {
+    /// The image as one block.
+    pub const WHOLE: Self = Self { columns: 1, rows: 1 };
+
+    /// Blocks of an image.
+    #[must_use]
+    pub fn blocks(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+
+    /// Comparisons that an image amounts to: every block and channel, and the mean over all.
+    #[must_use]
+    pub fn comparisons(&self) -> usize {
+        3 * self.blocks() + 1
+    }
+
+    /// The block that a pixel of an image of `size` belongs to.
+    fn block(&self, (x, y): (u32, u32), size: (u32, u32)) -> usize {
+        let (column, row) = (x * self.columns / size.0, y * self.rows / size.1);
+        row as usize * self.columns as usize + column as usize
+    }
+}
+
+/// What to render, [`BATCHES`] times.
+#[derive(Clone, Copy)]
+pub struct Plan<'a> {
+    /// The frozen scene.
+    pub scene: &'a Scene,
+    /// The estimator.
+    pub kernel: Kernel,
+    /// Its settings, seed included.
+    pub settings: &'a Settings,
+    /// Blocks of the image.
+    pub layout: Layout,
+    /// Sample number at which the first batch begins.
+    pub first_sample: u64,
+    /// Samples per pixel of every batch.
+    pub spp: u64,
+}
+
+/// Batch means of every block and channel of an image, and of the whole.
+#[derive(Clone, Debug)]
+pub struct Batches {
+    /// One series of [`BATCHES`] means per block and channel (block by block from the top left, channels
+    /// in turn), and last the mean over all blocks and channels.
+    pub series: Vec<Vec<f64>>,
+    /// Samples per pixel of every batch.
+    pub spp: u64,
+    /// Paths traced.
+    pub paths: u64,
+    /// Density look-ups.
+    pub lookups: u64,
+    /// The first sample that was not finite, if any; such samples are left out.
+    pub non_finite: Option<NonFinite>,
+}
+
+impl Batches {
+    /// Renders; `None` if it was cancelled.
+    #[must_use]
+    pub fn render(plan: &Plan<'_>, wanted: Wanted<'_>) -> Option<Self> {
+        let batches: Option<Vec<Batch>> =
+            (0..BATCHES as u64).into_par_iter().map(|b| batch(plan, b, wanted)).collect();
+        let batches = batches?;
+        let count = plan.layout.comparisons();
+        Some(Self {
+            series: (0..count).map(|i| batches.iter().map(|b| b.means[i]).collect()).collect(),
+            spp: plan.spp,
+            paths: batches.iter().map(|b| b.paths).sum(),
+            lookups: batches.iter().map(|b| b.lookups).sum(),
+            non_finite: batches.iter().find_map(|b| b.non_finite),
+        })
+    }
+
+    /// The same batches with more samples.
+    #[must_use]
+    pub fn merged(mut self, more: &Self) -> Self {
+        let share = more.spp as f64 / (self.spp + more.spp) as f64;
+        for (mean, further) in self.series.iter_mut().flatten().zip(more.series.iter().flatten()) {
+            *mean += (further - *mean) * share;
+        }
+        self.spp += more.spp;
+        self.paths += more.paths;
+        self.lookups += more.lookups;
+        self.non_finite = self.non_finite.or(more.non_finite);
+        self
+    }
+
+    /// Mean over all blocks and channels, with its standard error.
+    #[must_use]
+    pub fn whole(&self) -> (f64, f64) {
+        self.series.last().map_or((f64::NAN, f64::NAN), |s| mean_and_error(s))
+    }
+}
+
+struct Batch {
+    means: Vec<f64>,
+    paths: u64,
+    lookups: u64,
+    non_finite: Option<NonFinite>,
+}
+
+fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
+    let size = (plan.scene.width, plan.scene.height);
+    let mut sums = vec![[0.0f64; 3]; plan.layout.blocks()];
+    let mut counts = vec![0u64; plan.layout.blocks()];
+    let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, non_finite: None };
+    let first = plan.first_sample + index * plan.spp;
+    for y in 0..size.1 {
+        for x in 0..size.0 {
+            let block = plan.layout.block((x, y), size);
+            for sample in first..first + plan.spp {
+                let estimate = (plan.kernel)(plan.scene, plan.settings, PathIndex { x, y, sample }, wanted);
+                done.paths += 1;
+                done.lookups += estimate.lookups;
+                if !estimate.rgb.is_finite() {
+                    done.non_finite.get_or_insert(NonFinite { x, y, sample });
+                    continue;
+                }
+                counts[block] += 1;
+                for (sum, value) in sums[block].iter_mut().zip(estimate.rgb.to_array()) {
+                    *sum += f64::from(value);
+                }
+            }
+            // The estimate of an unwanted path is meaningless.
+            if !wanted.yes() {
+                return None;
+            }
+        }
+    }
+    let blocks = sums.iter().zip(&counts);
+    done.means = blocks.flat_map(|(sum, n)| sum.map(|s| s / (*n).max(1) as f64)).collect();
+    let total: f64 = sums.iter().flatten().sum();
+    done.means.push(total / (3 * counts.iter().sum::<u64>().max(1)) as f64);
+    Some(done)
+}

@@ -1,0 +1,156 @@
+//! Scenes whose answer nobody knows: every estimator, one answer.
+//!
+//! Estimators share little beyond the algebra of `transport`, and fail differently: unidirectional ones
+//! know nothing of light sampling, independent tracking nothing of heroes and weights. Scenes at the edges
+//! of what a scene can be, with what closed forms cannot hold: chromatic grids, several lights, surfaces,
+//! grids of albedo, depth limits, analogue absorption, roulette.
+
+use super::super::{Answer, Case, CheckError, Family, fixture};
+use super::ASIDE;
+use crate::io::Library;
+use crate::light::Panorama;
+use crate::scene::{Absorption, Mode};
+
+pub(super) const FAMILY: Family = Family {
+    id: "agreement",
+    about: "No answer is known: the estimators are held against each other, pair by pair.",
+    deep_only: false,
+    cases,
+};
+
+const PLUME: &str = "
+[medium]
+extinction = \"430:8, 540:40, 572:8\"
+albedo = 0.95
+density = { kind = \"grid\", file = \"embedded:plume.vdb\" }
+placement = { translate = [0.0, -0.8, 0.0] }
+[[lights]]
+kind = \"rectangle\"
+center = [-1.4, 1.6, 1.2]
+target = [0.0, 0.0, 0.0]
+size = [1.2, 1.2]
+scale = 8.0
+[[lights]]
+kind = \"environment\"
+scale = 0.3
+";
+
+const CLOUD: &str = "
+[medium]
+extinction = { rgb = [8.0, 6.0, 4.0] }
+albedo = { rgb = [0.99, 0.9, 0.8] }
+phase = { kind = \"henyey-greenstein\", g = 0.7 }
+density = { kind = \"grid\", file = \"embedded:cloud.vdb\" }
+[[lights]]
+kind = \"sun\"
+toward = [0.3, 0.8, 0.5]
+angular_diameter_deg = 60.0
+[[lights]]
+kind = \"sphere\"
+center = [0.8, 0.8, 0.3]
+radius = 0.45
+scale = 2.0
+[[objects]]
+kind = \"ground\"
+point = [0.0, -0.5, 0.0]
+albedo = { rgb = [0.6, 0.5, 0.3] }
+[estimator]
+mode = \"rgb\"
+";
+
+const INSIDE: &str = "
+majorant = 1
+[camera]
+origin = [0.1, 0.05, 0.3]
+fov_deg = 70.0
+[film]
+width = 8
+height = 8
+[medium]
+extinction = \"400:3, 560:6, 700:1\"
+albedo = \"400:0.5, 700:0.9\"
+phase = { kind = \"two-lobe\", g_forward = 0.6, g_backward = -0.4, forward = 0.7 }
+majorant = { factor = 1.7, shared = true }
+[[lights]]
+kind = \"environment\"
+radiance = \"400:1, 700:2\"
+[[objects]]
+kind = \"box\"
+center = [0.1, 0.0, -0.2]
+size = [0.3, 0.3, 0.1]
+rotate_deg = [0.0, 30.0, 10.0]
+";
+
+const RGB_GRIDS: &str = "
+[medium]
+density = { kind = \"rgb-grid\", file = \"extinction.npy\" }
+albedo_grid = { file = \"albedo.npy\" }
+placement = { fit = 1.0 }
+[[lights]]
+kind = \"environment-map\"
+file = \"sky\"
+rotate_deg = 40.0
+[[lights]]
+kind = \"rectangle\"
+center = [0.1, 0.1, 0.1]
+target = [-0.4, 0.5, 0.2]
+size = [0.5, 0.5]
+scale = 2.0
+visible = false
+[estimator]
+max_depth = 4
+";
+
+const NO_EXTINCTION_AT_THE_ENDS: &str = "
+[medium]
+extinction = { points = \"450:5, 500:9, 600:2\", outside = \"zero\" }
+albedo = 0.9
+phase = { kind = \"rayleigh\" }
+[[lights]]
+kind = \"sphere\"
+center = [0.0, 0.0, 0.0]
+radius = 0.15
+radiance = \"tungsten\"
+scale = 5.0
+[[lights]]
+kind = \"environment\"
+scale = 0.5
+visible = false
+[estimator]
+max_depth = 3
+";
+
+/// A sky with one bright texel, and grids of two resolutions with components that are zero.
+fn files() -> Library {
+    let mut texels = vec![[0.4, 0.5, 0.8]; 16 * 8];
+    texels[2 * 16 + 11] = [12.0, 10.0, 8.0];
+    let extinction: Vec<f32> =
+        (0..64u8).flat_map(|i| [0.0, f32::from(i % 5), f32::from(i % 3) * 2.0]).collect();
+    let albedo: Vec<f32> = (0..12u8).flat_map(|i| [0.9, 0.2 + 0.06 * f32::from(i), 1.0]).collect();
+    let files = Library::default()
+        .with_volume("extinction.npy", fixture::npy([4, 4, 4], 3, &extinction))
+        .with_volume("albedo.npy", fixture::npy([2, 3, 2], 3, &albedo));
+    match Panorama::new(16, 8, texels) {
+        Some(sky) => files.with_panorama("sky", sky),
+        None => files,
+    }
+}
+
+fn cases() -> Result<Vec<Case>, CheckError> {
+    let scene = |name: &str, toml: &str| {
+        Ok::<_, CheckError>(Case::new(format!("agreement/{name}"), toml, Answer::Agreement)?.in_blocks(2, 2))
+    };
+    let plume = scene("plume", &format!("{ASIDE}{PLUME}"))?;
+    let cloud = scene("cloud", &format!("{ASIDE}{CLOUD}"))?;
+    let grids = scene("rgb-grids", &format!("{ASIDE}{RGB_GRIDS}"))?.with_files(files());
+    Ok(vec![
+        plume.varied("agreement/plume-analogue", |d| d.estimator.absorption = Absorption::Analogue),
+        plume,
+        cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
+        cloud,
+        scene("inside", INSIDE)?,
+        grids.varied("agreement/rgb-grids-rgb", |d| d.estimator.mode = Mode::Rgb),
+        grids,
+        scene("zero-ends", &format!("{ASIDE}{NO_EXTINCTION_AT_THE_ENDS}"))?,
+    ])
+}

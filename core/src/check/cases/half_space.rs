@@ -1,0 +1,98 @@
+//! Escape from a half-space: multiple scattering and absorption with a known answer.
+//!
+//! A half-space scatters isotropically with albedo a and is lit by radiance 1 from every direction above
+//! it. What comes back along the normal is Chandrasekhar's (*Radiative Transfer*, 1960, §§ 33–38)
+//!
+//! ```text
+//!   R = 1 − √(1 − a) H(1),     1/H(μ) = √(1 − a) + (a/2) ∫₀¹ μ′ H(μ′) / (μ + μ′) dμ′
+//! ```
+//!
+//! which is also the probability that a photon which enters there escapes. It does not depend on the
+//! extinction, so that components may differ in it by any ratio: a hundredfold here. The half-space is a
+//! box of at least 20 mean free paths down and 60 across; with a ≤ 0.95 light decays by at least 0.38 per
+//! mean free path, to e^(−15) on the way down and back, so that nothing is missing that could be seen.
+
+use super::super::truth::{self, Points};
+use super::super::{Answer, Case, CheckError, Family, Layout};
+use super::AXIS;
+use crate::scene::Absorption;
+
+pub(super) const FAMILY: Family = Family {
+    id: "half-space",
+    about: "Multiple scattering in a half-space: Chandrasekhar's H function gives what escapes.",
+    deep_only: false,
+    cases,
+};
+
+const NODES: usize = 64;
+
+/// R for an albedo.
+fn escape(albedo: f64) -> f64 {
+    // H rises steeply at 0: with μ = s², midpoint nodes in s crowd there.
+    let mu: Vec<f64> = (0..NODES).map(|i| ((i as f64 + 0.5) / NODES as f64).powi(2)).collect();
+    let weight = |i: usize| 2.0 * mu[i].sqrt() / NODES as f64;
+    let root = (1.0 - albedo).sqrt();
+    let mut h = vec![1.0f64; NODES];
+    let at = |m: f64, h: &[f64]| {
+        let integral: f64 = (0..NODES).map(|i| weight(i) * mu[i] * h[i] / (m + mu[i])).sum();
+        1.0 / (root + 0.5 * albedo * integral)
+    };
+    for _ in 0..60 {
+        h = mu.iter().map(|m| at(*m, &h)).collect();
+    }
+    1.0 - root * at(1.0, &h)
+}
+
+fn cases() -> Result<Vec<Case>, CheckError> {
+    let toml = |extinction: &str, albedo: &str, mode: &str| {
+        format!(
+            "{AXIS}
+            [medium]
+            extinction = {extinction}
+            albedo = {albedo}
+            placement = {{ scale = [60.0, 60.0, 20.0], translate = [0.0, 0.0, -10.0] }}
+            [[lights]]
+            kind = \"environment\"
+            [estimator]
+            mode = \"{mode}\""
+        )
+    };
+    let albedo = [0.95, 0.3, 0.8];
+    let answer = Answer::uniform(albedo.map(escape), Layout::WHOLE);
+    let rgb = toml("{ rgb = [1.0, 100.0, 10.0] }", "{ rgb = [0.95, 0.3, 0.8] }", "rgb");
+    let rgb = Case::new("half-space/rgb", &rgb, answer)?;
+    let grey = rgb.varied("half-space/weighted", |doc| {
+        // Without roulette a path ends where it leaves the box, or where its weight has underflowed.
+        doc.medium.extinction = crate::spectrum::SpectrumDoc::Constant(1.0);
+    });
+    let points = Points(&[(400.0, 0.3), (700.0, 0.95)]);
+    let table: Vec<f64> = (0..=100).map(|i| escape(f64::from(i) / 100.0)).collect();
+    let seen = truth::film(|l| {
+        let x = points.at(l) * 100.0;
+        let i = x as usize;
+        table[i] + (table[i + 1] - table[i]) * (x - i as f64)
+    });
+    let nm = toml("\"430:2, 540:40, 600:1\"", &points.toml(), "spectral");
+    let nm = Case::new("half-space/spectral", &nm, Answer::uniform(seen, Layout::WHOLE).within(2e-4))?;
+    Ok(vec![
+        rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue),
+        rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1)),
+        nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2)),
+        grey,
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escape;
+
+    #[test]
+    fn escape_is_the_known_table() {
+        assert!(escape(0.0).abs() < 1e-12);
+        // H(1) of Chandrasekhar's table XI for isotropic scattering: 1.0 ↦ 2.9078, 0.9 ↦ 1.8501, 0.5 ↦ 1.2286.
+        for (albedo, h) in [(0.9f64, 1.8501), (0.5, 1.2286)] {
+            let found = (1.0 - escape(albedo)) / (1.0 - albedo).sqrt();
+            assert!((found - h).abs() < 6e-4, "{albedo}: {found}");
+        }
+    }
+}

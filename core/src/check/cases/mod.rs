@@ -1,0 +1,74 @@
+//! Families of cases, one file each, the derivation of the answer at its head. A line in [`FAMILIES`]
+//! adds one: the command line, the window and the tests iterate it.
+
+mod agreement;
+mod beer_lambert;
+mod emission;
+mod furnace;
+mod half_space;
+mod interpolation;
+mod lights;
+mod oracle;
+mod single_scattering;
+
+use super::{Case, CheckError, Family};
+
+/// Every family, the quickest to understand first.
+pub static FAMILIES: &[Family] = &[
+    furnace::FAMILY,
+    beer_lambert::FAMILY,
+    interpolation::FAMILY,
+    emission::FAMILY,
+    single_scattering::FAMILY,
+    lights::FAMILY,
+    half_space::FAMILY,
+    agreement::FAMILY,
+    oracle::FAMILY,
+];
+
+/// The cases of a usual look, or of a thorough one.
+///
+/// # Errors
+/// When the program was built with a damaged case.
+pub fn built_in(deep: bool) -> Result<Vec<Case>, CheckError> {
+    let families = FAMILIES.iter().filter(|f| deep || !f.deep_only);
+    families.map(|f| (f.cases)()).collect::<Result<Vec<_>, _>>().map(|cases| cases.concat())
+}
+
+/// The cases of a family, or the one of this name; none if there is no such.
+///
+/// # Errors
+/// As [`built_in`].
+pub fn named(name: &str) -> Result<Vec<Case>, CheckError> {
+    let Some(family) = FAMILIES.iter().find(|f| name.split('/').next() == Some(f.id)) else {
+        return Ok(Vec::new());
+    };
+    let mut cases = (family.cases)()?;
+    cases.retain(|case| name == family.id || name == case.name);
+    Ok(cases)
+}
+
+/// A camera far away on the z axis, so narrow that all its rays are the axis: a cube about the origin is
+/// crossed from z = ½ to z = −½.
+const AXIS: &str = "
+majorant = 1
+[camera]
+origin = [0.0, 0.0, 60.0]
+target = [0.0, 0.0, 0.0]
+fov_deg = 0.01
+[film]
+width = 2
+height = 2
+";
+
+/// A camera that looks at the origin from the side and above.
+const ASIDE: &str = "
+majorant = 1
+[camera]
+origin = [0.9, 0.7, 2.2]
+target = [0.0, 0.0, 0.0]
+fov_deg = 30.0
+[film]
+width = 8
+height = 8
+";

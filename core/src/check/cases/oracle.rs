@@ -1,0 +1,134 @@
+//! Pictures that independent renderers have made of seven scenes.
+//!
+//! Their scenes, references and provenance stand in `tests/oracle`: block means of converged pictures in
+//! linear sRGB, with standard errors. S4 and S5 are one plume in RGB and in spectral mode. The others have
+//! the same coefficients at every wavelength, so their pictures hold for spectral mode too, in the colour of
+//! illuminant E instead of white. The reference of S5 was made with a table of the observer that is
+//! 0.1 % off. Where an estimator meets light rarely, blocks are larger: every batch must know its own noise.
+
+use super::super::{Answer, Case, CheckError, Family, Value, truth};
+use crate::io::volume::{Limits, read_volume_bytes};
+use crate::io::{Library, scene_file};
+use crate::scene::Mode;
+
+pub(super) const FAMILY: Family = Family {
+    id: "oracle",
+    about: "Pictures of seven scenes by independent renderers, block by block, within both standard errors.",
+    deep_only: true,
+    cases,
+};
+
+struct Oracle {
+    name: &'static str,
+    toml: &'static str,
+    reference: &'static [u8],
+    stderr: &'static [u8],
+    /// Blocks along a side in which it is compared.
+    side: usize,
+    /// Most paths of an estimator that rarely meets the light.
+    budget: Option<u64>,
+}
+
+macro_rules! oracle {
+    ($name:literal, $side:literal, $budget:expr) => {
+        Oracle {
+            name: $name,
+            toml: include_str!(concat!("../../../../tests/oracle/", $name, "/scene.toml")),
+            reference: include_bytes!(concat!("../../../../tests/oracle/", $name, "/reference.npy")),
+            stderr: include_bytes!(concat!("../../../../tests/oracle/", $name, "/stderr.npy")),
+            side: $side,
+            budget: $budget,
+        }
+    };
+}
+
+static ORACLES: &[Oracle] = &[
+    oracle!("S1", 8, None),
+    oracle!("S1f", 8, None),
+    oracle!("S2", 2, Some(6_000_000)),
+    oracle!("S3", 2, Some(6_000_000)),
+    oracle!("S4", 8, None),
+    oracle!("S5", 8, None),
+    oracle!("S6", 8, None),
+];
+
+fn files() -> Library {
+    let cloud: &'static [u8] = include_bytes!("../../../../tests/oracle/S2/density.npy");
+    let plume: &'static [u8] = include_bytes!("../../../../tests/oracle/S4/density.npy");
+    let slab: &'static [u8] = include_bytes!("../../../../tests/oracle/S6/density.npy");
+    Library::default()
+        .with_volume("../S2/density.npy", cloud)
+        .with_volume("../S4/density.npy", plume)
+        .with_volume("../S6/density.npy", slab)
+}
+
+/// Block means of a picture, 16 × 16 blocks of three channels.
+const BLOCKS: usize = 16;
+
+fn table(name: &str, bytes: &[u8]) -> Result<Vec<f64>, CheckError> {
+    let damaged = |reason: String| CheckError::Reference { name: name.to_owned(), reason };
+    let grid = read_volume_bytes(bytes, "reference.npy", None, &Limits::default())
+        .map_err(|e| damaged(e.to_string()))?;
+    if (grid.size, grid.channels) != ([BLOCKS, BLOCKS, 1], 3) {
+        return Err(damaged(format!("{:?} × {} values", grid.size, grid.channels)));
+    }
+    Ok(grid.values.iter().map(|v| f64::from(*v)).collect())
+}
+
+/// Merges blocks into `side × side`; errors of independent blocks add in squares.
+fn merged(mean: &[f64], error: &[f64], side: usize) -> Vec<Value> {
+    let k = BLOCKS / side;
+    let n = (k * k) as f64;
+    let mut out = vec![Value { mean: 0.0, error: 0.0 }; side * side * 3];
+    for (i, (mean, error)) in mean.iter().zip(error).enumerate() {
+        let (pixel, c) = (i / 3, i % 3);
+        let (y, x) = (pixel / BLOCKS, pixel % BLOCKS);
+        let value = &mut out[(y / k * side + x / k) * 3 + c];
+        value.mean += mean / n;
+        value.error = value.error.hypot(error / n);
+    }
+    out
+}
+
+fn cases() -> Result<Vec<Case>, CheckError> {
+    let white = truth::white();
+    let mut cases = Vec::new();
+    for o in ORACLES {
+        let mut doc = scene_file::parse(o.toml, o.name)?;
+        // The references are means over blocks of 8 × 8 pixels: the same mean over 32 × 32 pixels.
+        (doc.film.width, doc.film.height) = (32, 32);
+        if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium.density
+            && !grid.file.starts_with("../")
+        {
+            grid.file = format!("../{}/{}", o.name, grid.file);
+        }
+        let values = merged(&table(o.name, o.reference)?, &table(o.name, o.stderr)?, o.side);
+        let mut answer = Answer::Known(values.clone());
+        if o.name == "S5" {
+            answer = answer.within(1e-3);
+        }
+        let side = o.side as u32;
+        let name = format!("oracle/{}", o.name);
+        let case = Case {
+            name: name.clone(),
+            doc,
+            layout: super::super::Layout { columns: side, rows: side },
+            answer,
+            library: files(),
+            budget: o.budget,
+        };
+        // Grey: every channel has the same answer, and so has every wavelength. S2 is the slowest by far.
+        if !matches!(o.name, "S2" | "S4" | "S5") {
+            let coloured = values
+                .iter()
+                .enumerate()
+                .map(|(i, v)| Value { mean: v.mean * white[i % 3], error: v.error * white[i % 3] });
+            let spectral = case
+                .varied(format!("{name}-nm"), |d| d.estimator.mode = Mode::Spectral)
+                .answered(Answer::Known(coloured.collect()));
+            cases.push(spectral);
+        }
+        cases.push(case);
+    }
+    Ok(cases)
+}
