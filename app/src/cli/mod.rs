@@ -1,5 +1,6 @@
 //! The command line: one subcommand per file. What the window renders, `render` renders too.
 
+mod check;
 mod estimators;
 mod info;
 mod lab;
@@ -26,9 +27,10 @@ Examples:
   majorant cloud.vdb                              open it on your own volume
   majorant scenes                                 list the embedded scenes
   majorant render first-light -o out.exr --spp 64
+  majorant check                                  hold the estimators against known answers
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
-Exit codes: 0 success, 1 a file or a render failed, 2 wrong usage, 3 no display for the window."
+Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -41,6 +43,8 @@ struct Arguments {
 enum Command {
     /// Render a scene without a window.
     Render(render::Arguments),
+    /// Hold every estimator against answers that are known, or against each other on your own scene.
+    Check(check::Arguments),
     /// List the estimators.
     Estimators,
     /// Describe a volume, picture or scene file.
@@ -71,6 +75,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         None => lab::run(arguments.lab),
         Some(Command::Render(a)) => render::run(&a),
+        Some(Command::Check(a)) => check::run(&a),
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),

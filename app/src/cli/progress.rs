@@ -11,18 +11,23 @@ pub(super) struct Progress {
     seconds: Option<f32>,
 }
 
+/// An empty bar of this length; hidden unless standard error is a terminal.
+pub(super) fn bar(length: u64) -> ProgressBar {
+    let bar = ProgressBar::new(length);
+    bar.set_draw_target(if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::hidden()
+    });
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}  {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 impl Progress {
     pub fn new(spp: Option<u32>, seconds: Option<f32>) -> Self {
-        let bar = ProgressBar::new(1000);
-        bar.set_draw_target(if std::io::stderr().is_terminal() {
-            ProgressDrawTarget::stderr()
-        } else {
-            ProgressDrawTarget::hidden()
-        });
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {elapsed}  {msg}") {
-            bar.set_style(style);
-        }
-        Self { bar, spp, seconds }
+        Self { bar: bar(1000), spp, seconds }
     }
 
     pub fn show(&self, snapshot: &Snapshot) {

@@ -13,7 +13,8 @@ use egui::{
     Align, Align2, CentralPanel, Color32, Context, FontId, Frame, Id, Label, LayerId, Layout, Margin, Order,
     Panel, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2,
 };
-use majorant_core::scene::{SceneDoc, WhenExceeded};
+use majorant_core::estimator;
+use majorant_core::scene::SceneDoc;
 use majorant_core::session::Status;
 
 impl LabApp {
@@ -107,14 +108,13 @@ impl LabApp {
     /// What has to be known about the picture to read it rightly, in its corner.
     fn remarks_ui(&self, ui: &mut Ui, canvas: Rect) {
         let palette = Palette::get(ui);
-        let majorant = &self.doc().medium.majorant;
-        let biased = majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp;
+        let biased = estimator::find(&self.doc().estimator.id).and_then(|entry| entry.bias(self.doc()));
         let coarse = self.shown.as_ref().is_some_and(|s| s.coarse.is_some());
         let area = Rect::from_min_size(canvas.min + vec2(10.0, 10.0), vec2(canvas.width() - 20.0, 22.0));
         let mut child =
             ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
-        if biased {
-            badge(&mut child, palette.error, "biased: the majorant is clamped");
+        if let Some(reason) = biased {
+            badge(&mut child, palette.error, &format!("biased: {reason}"));
         }
         if coarse {
             badge(&mut child, palette.accent, "preview");

@@ -1,0 +1,158 @@
+//! `majorant check`: is every estimator true?
+
+use super::{Failure, print_line, progress, source};
+use majorant_core::check::{self, Answer, Case, Check, Effort, FAMILIES, Report, Row, Verdict};
+use majorant_core::io::embedded;
+use majorant_core::scene::Mode;
+use majorant_core::transport::Wanted;
+use std::path::Path;
+
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+Without SCENE the built-in cases are checked, against closed forms, quadrature and each other (--list
+lists them). A family or a case of them can be named: `majorant check furnace half-space/weighted`. On a
+scene of your own nobody knows the answer: every estimator that is unbiased for it is held against every
+other, on a small picture of the scene, in about 45 seconds.
+
+One line per scene and estimator: the image's mean, what it should be, the z of their difference, the
+largest |z| of any block and channel and what chance allows, the bias of the mean that would have been
+seen with 95 % probability, and the verdict. --deep sees 1 % instead of 3, adds the pictures by
+independent renderers, and takes minutes.
+
+--json prints one line: passes, seconds, notes, and rows of scene, estimator, mode, measured, error,
+expected, z, worst_z, critical_z, detectable, paths, verdict (agrees, differs with from, not-finite).
+
+Exit code 1 if anything differs.")]
+pub(super) struct Arguments {
+    /// Scene files, embedded scenes, or built-in families and cases.
+    scenes: Vec<String>,
+    /// Look thoroughly: minutes instead of seconds.
+    #[arg(long)]
+    deep: bool,
+    /// Print the result as one line of JSON.
+    #[arg(long)]
+    json: bool,
+    /// List the built-in families and cases.
+    #[arg(long, conflicts_with_all = ["scenes", "deep", "json"])]
+    list: bool,
+}
+
+/// Seconds for scenes whose cost nobody knows.
+const SECONDS: f64 = 45.0;
+const DEEP_SECONDS: f64 = 600.0;
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.list {
+        return list();
+    }
+    let check = plan(arguments)?;
+    let bar = progress::bar(check.cases.iter().map(|c| c.estimators().len() as u64).sum());
+    let width = check.cases.iter().map(|c| c.name.chars().count()).max().unwrap_or(0);
+    let mut printed = Ok(());
+    if !arguments.json {
+        print_line(&heading(width))?;
+    }
+    let report = check.run(Wanted::ALWAYS, |p| {
+        bar.set_position(p.done as u64);
+        bar.set_message(format!("{}  {}", p.scene, p.estimator));
+        if !arguments.json && printed.is_ok() {
+            printed = bar.suspend(|| p.rows.iter().try_for_each(|row| print_line(&line(row, width))));
+        }
+    })?;
+    bar.finish_and_clear();
+    printed?;
+    // Nobody cancels it.
+    finish(&report.unwrap_or_default(), arguments.json)
+}
+
+fn finish(report: &Report, json: bool) -> Result<(), Failure> {
+    if json {
+        let mut value = serde_json::to_value(report)?;
+        value["passes"] = report.passes().into();
+        print_line(&value.to_string())?;
+    } else {
+        for note in &report.notes {
+            print_line(&format!("note: {note}"))?;
+        }
+        let agree = report.rows.iter().filter(|row| row.passes()).count();
+        print_line(&format!("{agree} of {} agree, in {:.1} s", report.rows.len(), report.seconds))?;
+    }
+    let failures: Vec<_> = report.failures().map(|r| format!("{} {}", r.scene, r.estimator)).collect();
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Message(format!("not what it should be: {}", failures.join(", "))))
+}
+
+/// What was asked for, as one family of comparisons.
+fn plan(arguments: &Arguments) -> Result<Check, Failure> {
+    let effort = if arguments.deep { Effort::DEEP } else { Effort::QUICK };
+    if arguments.scenes.is_empty() {
+        return Ok(Check { cases: check::built_in(arguments.deep)?, effort });
+    }
+    let mut cases: Vec<Case> = Vec::new();
+    let mut own = 0;
+    for name in &arguments.scenes {
+        let is_scene = Path::new(name).exists() || embedded::find(name).is_some();
+        let built_in = if is_scene { Vec::new() } else { check::named(name)? };
+        if built_in.is_empty() {
+            let source = match source::load(name) {
+                Err(Failure::Message(m)) if !is_scene => {
+                    return Err(Failure::Message(format!(
+                        "{m}; `majorant check --list` lists built-in cases"
+                    )));
+                }
+                loaded => loaded?,
+            };
+            if let Some(problem) = majorant_core::estimator::validate(&source.doc).first() {
+                return Err(Failure::Message(format!("{name}: {problem}")));
+            }
+            let case = check::own_scene(name, &source.doc, source.resources);
+            own += case.estimators().len();
+            cases.push(case);
+        } else {
+            cases.extend(built_in);
+        }
+    }
+    let seconds = if arguments.deep { DEEP_SECONDS } else { SECONDS };
+    let effort = if own > 0 { effort.within(seconds, own) } else { effort };
+    Ok(Check { cases, effort })
+}
+
+fn heading(width: usize) -> String {
+    format!(
+        "{:width$}  {:13} {:8}  {:>10} ± {:<8}  {:>10}  {:>6}  {:>13}  {:>7}  verdict",
+        "scene", "estimator", "mode", "measured", "error", "expected", "z", "worst |z|", "sees"
+    )
+}
+
+fn line(row: &Row, width: usize) -> String {
+    let verdict = match &row.verdict {
+        Verdict::Agrees => "agrees".to_owned(),
+        Verdict::Differs { from } => format!("DIFFERS from {}", from.join(", ")),
+        Verdict::NotFinite { x, y, sample } => format!("NOT FINITE in pixel ({x}, {y}), sample {sample}"),
+    };
+    let mode = if row.mode == Mode::Rgb { "rgb" } else { "spectral" };
+    let sees = if row.detectable < 10.0 { format!("{:.1} %", 100.0 * row.detectable) } else { "–".into() };
+    format!(
+        "{:width$}  {:13} {mode:8}  {:>10.5} ± {:<8.5}  {:>10.5}  {:>6.2}  {:>5.2} of {:<4.2}  {sees:>7}  {verdict}",
+        row.scene, row.estimator, row.measured, row.error, row.expected, row.z, row.worst_z, row.critical_z
+    )
+}
+
+fn list() -> Result<(), Failure> {
+    for family in FAMILIES {
+        let deep = if family.deep_only { " (--deep only)" } else { "" };
+        print_line(&format!("{}{deep}: {}", family.id, family.about))?;
+        for case in (family.cases)()? {
+            let known = matches!(case.answer, Answer::Known(_));
+            let against = if known { "a known answer" } else { "each other" };
+            print_line(&format!(
+                "  {:36} {} estimators against {against}",
+                case.name,
+                case.estimators().len()
+            ))?;
+        }
+    }
+    Ok(())
+}
