@@ -59,12 +59,8 @@ impl Panel for PhaseFunction {
             (Kind::Rayleigh, "Rayleigh", "Molecules: p = 3 (1 + cos² θ) / 16π"),
         ];
         if segmented(ui, "Phase function", &mut chosen, &options) {
-            *phase = match chosen {
-                Kind::Isotropic => PhaseDoc::Isotropic {},
-                Kind::HenyeyGreenstein => PhaseDoc::HenyeyGreenstein { g: 0.5 },
-                Kind::TwoLobe => PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.7 },
-                Kind::Rayleigh => PhaseDoc::Rayleigh {},
-            };
+            let mut templates = PhaseDoc::templates().into_iter().map(|(_, template)| template);
+            *phase = templates.find(|template| kind(*template) == chosen).unwrap_or(*phase);
         }
         parameters_ui(ui, phase, cx.opened.medium.phase);
         phase_lobe(ui, &Phase::new(phase), cx.settings.log_lobe);

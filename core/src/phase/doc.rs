@@ -33,3 +33,16 @@ impl Default for PhaseDoc {
         Self::Isotropic {}
     }
 }
+
+impl PhaseDoc {
+    /// One of each kind, with its name: where a picker starts, and what is tested.
+    #[must_use]
+    pub fn templates() -> Vec<(&'static str, Self)> {
+        vec![
+            ("Isotropic", Self::Isotropic {}),
+            ("Henyey–Greenstein", Self::HenyeyGreenstein { g: 0.5 }),
+            ("Two lobes", Self::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.7 }),
+            ("Rayleigh", Self::Rayleigh {}),
+        ]
+    }
+}
