@@ -7,6 +7,7 @@
     reason = "test support: it may panic, and prints its tables"
 )]
 
+pub mod chi2;
 pub mod render;
 pub mod stats;
 pub mod volumes;

@@ -104,6 +104,3 @@ impl Emitter for Light {
         each!(self, light => light.radiance(direction, components))
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -55,3 +55,23 @@ impl Emitter for Sun {
         components.evaluate(&self.radiance)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::RgbChannels;
+
+    #[test]
+    fn a_sun_gives_the_irradiance_that_was_asked_for_at_any_diameter() {
+        for diameter in [0.1, 0.53, 5.0] {
+            let sun = Sun::new(Vec3::Y, diameter, Spectrum::constant(2.0));
+            let components = RgbChannels::<1> { channel: [0] };
+            let s = sun.sample(Vec3::ZERO, Vec2::new(0.5, 0.5)).expect("always lit");
+            let radiance = sun.radiance(s.direction, &components).hero();
+            let half = 0.5 * f64::from(diameter).to_radians();
+            let irradiance = f64::from(radiance) * std::f64::consts::PI * half.sin().powi(2);
+            assert!((irradiance - 2.0).abs() < 1e-3, "{irradiance}");
+            assert!(sun.covers(s.direction) && !sun.covers(Vec3::X));
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Lights of every kind, near, far and at a slant, from several points.
+
+use glam::{Vec2, Vec3};
+use majorant_core::io::Library;
+use majorant_core::light::{Emitter, Light, LightSample};
+use majorant_core::math::{Ray, Sampler};
+use majorant_core::scene::{LightDoc, Scene, SceneDoc, build};
+use majorant_core::surface::Role;
+use majorant_tests::chi2::Family;
+use std::path::Path;
+
+/// Points that lights are seen from.
+const FROM: [Vec3; 3] = [Vec3::ZERO, Vec3::new(0.3, -0.4, 0.2), Vec3::new(-0.9, 0.5, -0.7)];
+
+/// A coarse sky with a sun and black texels, and a fine one that is bright in a narrow stripe only.
+fn write_skies(folder: &Path) {
+    let coarse = |x: usize, y: usize| match (x, y) {
+        (11, 2) => (90.0f32, 80.0f32, 60.0f32),
+        (3..=6, 1..=5) => (0.0, 0.0, 0.0),
+        _ => (0.2 * (1 + x % 5) as f32, 0.3 + 0.1 * y as f32, 0.5),
+    };
+    exr::prelude::write_rgb_file(folder.join("coarse.exr"), 16, 8, coarse).unwrap();
+    let fine = |x: usize, y: usize| {
+        let v = if (20..23).contains(&x) && (3..9).contains(&y) { 40.0f32 + y as f32 } else { 0.01 };
+        (v, v, v)
+    };
+    exr::prelude::write_rgb_file(folder.join("fine.exr"), 64, 32, fine).unwrap();
+}
+
+/// One of each kind, and those that are hard.
+fn lights() -> Vec<(String, LightDoc)> {
+    let map = |file: &str, rotate_deg| LightDoc::EnvironmentMap {
+        file: file.into(),
+        rotate_deg,
+        scale: 1.5,
+        visible: true,
+    };
+    let mut lights = Vec::new();
+    for (name, mut doc) in LightDoc::templates() {
+        if let LightDoc::EnvironmentMap { file, .. } = &mut doc {
+            *file = "coarse.exr".into();
+        }
+        lights.push((name.to_owned(), doc.clone()));
+        let mut vary = |what: &str, change: &dyn Fn(&mut LightDoc)| {
+            let mut doc = doc.clone();
+            change(&mut doc);
+            lights.push((format!("{name}, {what}"), doc));
+        };
+        match &doc {
+            LightDoc::Rectangle { .. } => vary("wide and at a slant", &|doc| {
+                if let LightDoc::Rectangle { target, size, .. } = doc {
+                    (*target, *size) = ([1.2, 0.0, -1.5], [2.0, 0.4]);
+                }
+            }),
+            LightDoc::Sphere { .. } => {
+                let mut at = |what: &str, place: [f32; 3], r: f32| {
+                    vary(what, &|doc| {
+                        if let LightDoc::Sphere { center, radius, .. } = doc {
+                            (*center, *radius) = (place, r);
+                        }
+                    });
+                };
+                at("near", [0.1, 1.3, 0.2], 1.2);
+                at("far", [300.0, 400.0, -100.0], 0.5);
+            }
+            LightDoc::Sun { .. } => vary("wide", &|doc| {
+                if let LightDoc::Sun { toward, angular_diameter_deg, .. } = doc {
+                    (*toward, *angular_diameter_deg) = ([-0.2, -0.1, -0.9], 30.0);
+                }
+            }),
+            LightDoc::Environment { .. } => {}
+            LightDoc::EnvironmentMap { .. } => {
+                vary("turned", &|doc| *doc = map("coarse.exr", 40.0));
+                vary("with a narrow stripe", &|doc| *doc = map("fine.exr", -75.0));
+            }
+        }
+    }
+    lights
+}
+
+/// A scene of one light, and nothing in the way.
+fn scene(light: &LightDoc, folder: &Path) -> Scene {
+    let doc = SceneDoc { lights: vec![light.clone()], ..SceneDoc::default() };
+    build(&doc, &mut Library::default().with_base(folder)).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Distance to the light's emitting side along a ray; `None` where the ray misses it.
+fn reach(scene: &Scene, ray: &Ray) -> Option<f32> {
+    let end = scene.nearest_surface(ray, f32::INFINITY, false);
+    match end.role() {
+        Some(Role::Light(_)) => (ray.direction.dot(end.normal()) < 0.0).then(|| end.t()),
+        _ => scene.lights[0].is_behind(ray.direction).then_some(f32::INFINITY),
+    }
+}
+
+/// What a sample says of itself must be true: its density, and its place on the light.
+fn check(name: &str, scene: &Scene, from: Vec3, s: &LightSample) {
+    let density = scene.lights[0].density(from, s.direction, s.distance);
+    assert!((s.density / density - 1.0).abs() < 1e-3, "{name}: density {} is not {density}", s.density);
+    // Grazing rays may miss by rounding; the χ² test looks after those. All others agree.
+    if let Some(distance) = reach(scene, &Ray { origin: from, direction: s.direction }) {
+        let agrees = distance == s.distance || (distance - s.distance).abs() < 2e-3 * distance;
+        assert!(agrees, "{name}: a sample at {} where the light is at {distance}", s.distance);
+    }
+}
+
+#[test]
+fn directions_towards_every_light_follow_their_density() {
+    let folder = tempfile::tempdir().unwrap();
+    write_skies(folder.path());
+    let mut family = Family::default();
+    for (seed, (name, doc)) in (0..).zip(lights()) {
+        let scene = scene(&doc, folder.path());
+        let light: &Light = &scene.lights[0];
+        for (pixel, from) in (0..).zip(FROM) {
+            let name = format!("{name} from {from}");
+            let mut sampler = Sampler::new(seed, pixel, 2);
+            let draw = || {
+                let s = light.sample(from, sampler.next_2d()).expect("the point is lit");
+                check(&name, &scene, from, &s);
+                s.direction
+            };
+            let density = |direction: Vec3| {
+                let distance = reach(&scene, &Ray { origin: from, direction });
+                distance.map_or(0.0, |distance| light.density(from, direction, distance))
+            };
+            family.directions(&name, draw, density);
+        }
+    }
+    family.judge();
+}
+
+#[test]
+fn a_rectangle_is_dark_behind_and_a_sphere_inside() {
+    for (name, doc) in LightDoc::templates() {
+        let (center, dark) = match doc {
+            LightDoc::Rectangle { center, .. } => (Vec3::from(center), Vec3::from(center) * 1.5),
+            LightDoc::Sphere { center, radius, .. } => {
+                (Vec3::from(center), Vec3::from(center) + 0.3 * radius)
+            }
+            _ => continue,
+        };
+        let light = &scene(&doc, Path::new("")).lights[0];
+        for u in [Vec2::ZERO, Vec2::new(0.3, 0.7)] {
+            assert!(light.sample(dark, u).is_none(), "{name}");
+        }
+        let to_light = center - dark;
+        let distance = to_light.length();
+        assert_eq!(light.density(dark, to_light / distance, distance), 0.0, "{name}");
+    }
+}
