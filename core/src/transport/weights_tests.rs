@@ -1,169 +1,178 @@
-//! The rescaled weights against plain products in double precision, and against Miller's pairwise form.
+//! The rescaled weights against plain products in double precision and against Miller's pairwise form,
+//! and against themselves: whoever makes a path, the weights sum to one.
+
+#[path = "weights_plain.rs"]
+mod plain;
 
 use super::PathWeights;
+use crate::math::Sampler;
 use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
 use crate::spectrum::Sampled;
-use crate::transport::Collision;
+use crate::transport::{Collision, Event, Trace, Wanted};
 use glam::Vec3;
+use plain::{Events, events};
 use proptest::prelude::*;
+use proptest::test_runner::{RngSeed, TestCaseError};
 
-const N: usize = 3;
+/// What single precision leaves of a product of thirty factors.
+const ROUNDING: f64 = 1e-4;
 
-/// What may happen to a path, with what it happens by.
-#[derive(Clone, Debug)]
-enum Step {
-    Pass { majorant: [f32; N], distance: f32 },
-    Null { extinction: [f32; N], albedo: [f32; N], majorant: [f32; N] },
-    Scatter { extinction: [f32; N], albedo: [f32; N], majorant: [f32; N], phase: f32 },
+fn assert_near(what: &str, value: f32, expected: f64) -> Result<(), TestCaseError> {
+    let near = (f64::from(value) - expected).abs() <= ROUNDING * expected.abs();
+    prop_assert!(near, "{what}: {value} is not {expected}");
+    Ok(())
 }
 
-/// f, p_uni and p_nee as they are defined, in double precision.
-#[derive(Clone, Copy)]
-struct Plain {
-    f: [f64; N],
-    uni: [f64; N],
-    nee: [f64; N],
+fn mean<const N: usize>(f: impl FnMut(usize) -> f64) -> f64 {
+    (0..N).map(f).sum::<f64>() / N as f64
 }
 
-fn collision(
-    extinction: [f32; N],
-    albedo: [f32; N],
-    majorant: [f32; N],
-    absorption: Absorption,
-) -> Collision<N> {
-    let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: Sampled(majorant), clamp_null: false };
-    Collision::new(Vec3::ZERO, Coefficients::new(Sampled(extinction), Sampled(albedo), &segment), absorption)
+/// Every way to use a path, each by its definition and by the pairwise form.
+fn equals_plain_products<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+    let p = events.plain();
+    let (walk, link) = (events.walk(), events.connection());
+    let can_walk = p.uni[0] > 0.0;
+    let can_connect = p.nee[0] > 0.0;
+    let mean_uni = mean::<N>(|i| p.uni[i]);
+    let mean_nee = mean::<N>(|i| p.nee[i]);
+    for j in 0..N {
+        let by_uni = mean::<N>(|i| p.uni_over_f[i][j]);
+        let by_nee = mean::<N>(|i| p.nee_over_f[i][j]);
+        let by_both = mean::<N>(|i| p.uni_over_f[i][j] + p.nee_over_f[i][j]);
+        let check = |what, value: Sampled<N>, mean_density, pairwise: f64| {
+            assert_near(what, value[j], p.f[j] / mean_density)?;
+            // 0/0 has no value: a component that carries nothing is left out of the pairwise form.
+            if p.f[j] == 0.0 { Ok(()) } else { assert_near("pairwise", value[j], 1.0 / pairwise) }
+        };
+        if can_walk {
+            check("uni", walk.unidirectional(Sampled::ONE), mean_uni, by_uni)?;
+            check("balanced walk", walk.balanced(Sampled::ONE, events.light), mean_uni + mean_nee, by_both)?;
+        }
+        if can_connect {
+            check("nee", link.connected_only(Sampled::ONE), mean_nee, by_nee)?;
+            check("balanced link", link.connected_balanced(Sampled::ONE), mean_uni + mean_nee, by_both)?;
+        }
+    }
+    if can_walk {
+        assert_near("hero", walk.hero_only(Sampled::ONE)[0], p.f[0] / p.uni[0])?;
+    }
+    Ok(())
 }
 
-impl Plain {
-    /// Applies one line of the table of events, straight from the definitions.
-    fn apply(&mut self, step: &Step, analogue: bool) {
-        for i in 0..N {
-            match *step {
-                Step::Pass { majorant, distance } => {
-                    let factor = (-f64::from(majorant[i]) * f64::from(distance)).exp();
-                    self.f[i] *= factor;
-                    self.uni[i] *= factor;
-                    self.nee[i] *= factor;
-                }
-                Step::Null { extinction, majorant, .. } => {
-                    let (t, m) = (f64::from(extinction[i]), f64::from(majorant[i]));
-                    let null = m - t;
-                    self.f[i] *= null;
-                    self.uni[i] *= null.abs() * m / (t + null.abs());
-                    self.nee[i] *= m;
-                }
-                Step::Scatter { extinction, albedo, majorant, phase } => {
-                    let (t, m) = (f64::from(extinction[i]), f64::from(majorant[i]));
-                    let k = m / (t + (m - t).abs());
-                    let scattering = t * f64::from(albedo[i]);
-                    self.f[i] *= scattering * f64::from(phase);
-                    let before = self.uni[i] * if analogue { scattering } else { t } * k;
-                    // The light's density takes the place of the phase function's.
-                    self.nee[i] = before;
-                    self.uni[i] = before * f64::from(phase);
-                }
+/// A path could have been made with any component as the hero, by either technique. The weight of each
+/// is its density over the sum of all.
+fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+    let plain = events.plain();
+    let (mut weights, mut means) = (0.0, 0.0);
+    for hero in 0..N {
+        let turned = events.rotated(hero);
+        let sum = |values: Sampled<N>| values.0.iter().map(|x| f64::from(*x)).sum::<f64>();
+        // The density that made the path is the unit of the rescaled numbers.
+        if plain.uni[hero] > 0.0 {
+            let walk = turned.walk();
+            assert_near("p_uni of the hero", walk.uni.hero(), 1.0)?;
+            weights += 1.0 / sum(walk.uni + walk.nee * turned.light);
+            means += 1.0 / sum(walk.uni);
+        }
+        if plain.nee[hero] > 0.0 {
+            let link = turned.connection();
+            assert_near("p_nee of the hero", link.nee.hero(), 1.0)?;
+            weights += 1.0 / sum(link.uni + link.nee);
+        }
+    }
+    prop_assert!((weights - 1.0).abs() < ROUNDING, "both techniques: {weights}");
+    let could_walk = plain.uni.iter().any(|p| *p > 0.0);
+    prop_assert!(!could_walk || (means - 1.0).abs() < ROUNDING, "the walk alone: {means}");
+    Ok(())
+}
+
+/// Roulette multiplies what a path brings, and leaves its weights alone, bit by bit.
+fn roulette_leaves_weights_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+    let plain = events.plain();
+    let without = events.without_roulette();
+    let gain = plain.f[0] / without.plain().f[0];
+    for (hero, a, b) in [
+        (plain.uni[0], events.walk(), without.walk()),
+        (plain.nee[0], events.connection(), without.connection()),
+    ] {
+        if hero > 0.0 {
+            prop_assert_eq!((a.uni, a.nee), (b.uni, b.nee));
+            if plain.f[0] != 0.0 {
+                assert_near("gain", a.contribution.hero() / b.contribution.hero(), gain)?;
             }
         }
     }
-}
-
-fn apply(path: &mut PathWeights<N>, step: &Step, absorption: Absorption) {
-    match *step {
-        Step::Pass { majorant, distance } => path.pass(Sampled(majorant), distance),
-        Step::Null { extinction, albedo, majorant } => {
-            path.null(&collision(extinction, albedo, majorant, absorption));
-        }
-        Step::Scatter { extinction, albedo, majorant, phase } => {
-            path.scatter(&collision(extinction, albedo, majorant, absorption));
-            path.leave(phase);
-        }
-    }
-}
-
-fn triple(lo: f32, hi: f32) -> impl Strategy<Value = [f32; N]> {
-    [lo..hi, lo..hi, lo..hi]
-}
-
-fn step() -> impl Strategy<Value = Step> {
-    prop_oneof![
-        (triple(0.1, 4.0), 0.01f32..0.5).prop_map(|(majorant, distance)| Step::Pass { majorant, distance }),
-        (triple(0.2, 3.0), triple(0.1, 1.0), triple(0.3, 4.0))
-            .prop_filter("a null collision of the hero needs μn ≠ 0", |(t, _, m)| (m[0] - t[0]).abs()
-                > 0.05)
-            .prop_map(|(extinction, albedo, majorant)| Step::Null { extinction, albedo, majorant }),
-        (triple(0.2, 3.0), triple(0.1, 1.0), triple(0.3, 4.0), 0.01f32..3.0).prop_map(
-            |(extinction, albedo, majorant, phase)| Step::Scatter { extinction, albedo, majorant, phase }
-        ),
-    ]
+    Ok(())
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(5), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 512,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(5),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn rescaled_weights_equal_plain_products(
-        steps in prop::collection::vec(step(), 1..25),
-        analogue: bool,
-        light in 0.01f32..5.0,
+        one in events::<1>(), three in events::<3>(), four in events::<4>(),
     ) {
-        let absorption = if analogue { Absorption::Analogue } else { Absorption::Weighted };
-        let mut path = PathWeights::<N>::CAMERA;
-        let mut plain = Plain { f: [1.0; N], uni: [1.0; N], nee: [1.0; N] };
-        for s in &steps {
-            apply(&mut path, s, absorption);
-            plain.apply(s, analogue);
-        }
-        let mean_uni: f64 = plain.uni.iter().sum::<f64>() / N as f64;
-        let mean_both: f64 =
-            (0..N).map(|i| plain.uni[i] + plain.nee[i] * f64::from(light)).sum::<f64>() / N as f64;
-        let uni = path.unidirectional(Sampled::ONE);
-        let both = path.balanced(Sampled::ONE, light);
-        for j in 0..N {
-            // Miller's pairwise form: 1 / mean_i (p_i / f_j).
-            let pairwise = 1.0 / ((0..N).map(|i| plain.uni[i] / plain.f[j]).sum::<f64>() / N as f64);
-            prop_assert!((f64::from(uni[j]) / (plain.f[j] / mean_uni) - 1.0).abs() < 1e-3);
-            prop_assert!((f64::from(uni[j]) / pairwise - 1.0).abs() < 1e-3);
-            prop_assert!((f64::from(both[j]) / (plain.f[j] / mean_both) - 1.0).abs() < 1e-3);
-        }
+        equals_plain_products(&one)?;
+        equals_plain_products(&three)?;
+        equals_plain_products(&four)?;
     }
 
-    /// A connection and a walk that make the same path give weights that sum to one.
     #[test]
-    fn techniques_share_a_path_without_remainder(
-        (extinction, albedo, majorant) in (triple(0.2, 3.0), triple(0.1, 1.0), triple(3.1, 5.0)),
-        distances in prop::collection::vec(0.01f32..0.5, 1..6),
-        phase in 0.01f32..3.0,
-        light in 0.01f32..5.0,
+    fn balance_weights_sum_to_one_over_heroes_and_techniques(
+        one in events::<1>(), three in events::<3>(), four in events::<4>(),
     ) {
-        let c = collision(extinction, albedo, majorant, Absorption::Weighted);
-        let mut walk = PathWeights::<N>::CAMERA;
-        walk.scatter(&c);
-        let mut link = walk.connect(phase, light);
-        walk.leave(phase);
-        for d in distances {
-            walk.pass(Sampled(majorant), d);
-            link.pass(Sampled(majorant), d);
-            walk.null(&c);
-            link.null_by_ratio(&c);
-        }
-        // Both are f_j / mean (p_uni + p_nee) of one path, whichever technique has made it.
-        let (a, b) = (walk.balanced(Sampled::ONE, light), link.connected_balanced(Sampled::ONE));
-        for j in 0..N {
-            prop_assert!((a[j] / b[j] - 1.0).abs() < 1e-3, "{a:?} {b:?}");
-        }
+        weights_sum_to_one(&one)?;
+        weights_sum_to_one(&three)?;
+        weights_sum_to_one(&four)?;
+    }
+
+    #[test]
+    fn roulette_is_left_out_of_every_weight(one in events::<1>(), four in events::<4>()) {
+        roulette_leaves_weights_alone(&one)?;
+        roulette_leaves_weights_alone(&four)?;
     }
 }
 
+/// A hundred thousand events of albedo 1 under majorants up to a hundred times apart, drawn as a walk
+/// draws them: nothing overflows, and what the components bring still adds up to their number.
 #[test]
 fn a_hundred_thousand_events_stay_finite() {
-    let c = collision([3.0, 1.0, 0.2], [1.0; N], [4.0, 2.0, 0.25], Absorption::Weighted);
-    let mut path = PathWeights::<N>::CAMERA;
-    for _ in 0..100_000 {
-        path.pass(Sampled([4.0, 2.0, 0.25]), 0.3);
-        path.scatter(&c);
-        path.leave(0.08);
-        assert!(path.balanced(Sampled::ONE, 0.1).0.iter().all(|x| x.is_finite()));
+    const EXTINCTION: [f32; 4] = [0.5, 50.0, 3.0, 0.6];
+    for (hero, factor) in (0..4).flat_map(|hero| [1.0, 1.7].map(|factor| (hero, factor))) {
+        let extinction = Sampled::<4>(std::array::from_fn(|i| EXTINCTION[(hero + i) % 4]));
+        let majorant = extinction * factor;
+        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
+        let coefficients = Coefficients::new(extinction, Sampled::ONE, &segment);
+        let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted);
+        let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
+        let mut path = PathWeights::CAMERA;
+        for _ in 0..100_000 {
+            path.pass(majorant, trace.sampler.next_optical_depth() / majorant.hero());
+            let link = if collision.draw_event(&mut trace) == Event::Scattering {
+                path.scatter(&collision);
+                let link = path.connect(0.08, 40.0);
+                path.leave(0.08);
+                link
+            } else {
+                path.null(&collision);
+                path
+            };
+            let values = [
+                path.unidirectional(Sampled::ONE),
+                path.balanced(Sampled::ONE, 40.0),
+                link.connected_only(Sampled::ONE),
+                link.connected_balanced(Sampled::ONE),
+                path.hero_only(Sampled::ONE),
+            ];
+            assert!(values.iter().flat_map(|v| v.0).all(f32::is_finite), "hero {hero}: {values:?}");
+            let sum: f32 = values[0].0.iter().sum();
+            assert!((sum - 4.0).abs() < 0.01, "hero {hero}: the components add up to {sum}");
+        }
     }
 }

@@ -1,0 +1,280 @@
+//! Paths as strings of events, with f, p_uni and p_nee as they are defined: in double precision,
+//! straight from the table of events, and in Miller's pairwise form.
+
+use super::PathWeights;
+use crate::medium::{Coefficients, MajorantSegment};
+use crate::scene::Absorption;
+use crate::spectrum::Sampled;
+use crate::transport::Collision;
+use glam::Vec3;
+use proptest::array::uniform;
+use proptest::prelude::*;
+use std::array::from_fn;
+
+/// What a collision depends on, per component; extinction may exceed the majorant, or vanish.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<const N: usize> {
+    extinction: [f32; N],
+    albedo: [f32; N],
+    majorant: [f32; N],
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step<const N: usize> {
+    Pass {
+        majorant: [f32; N],
+        distance: f32,
+    },
+    Null(Place<N>),
+    /// With the density of the direction that the path leaves in.
+    Scatter(Place<N>, f32),
+    /// On a surface of this albedo; with the density of the direction that the path leaves in.
+    Reflect([f32; N], f32),
+    /// Roulette with this probability.
+    Survive(f32),
+}
+
+/// A path from the camera to a light.
+#[derive(Clone, Debug)]
+pub(super) struct Events<const N: usize> {
+    pub absorption: Absorption,
+    /// Up to the last real vertex.
+    pub before: Vec<Step<N>>,
+    /// The last real vertex.
+    pub vertex: Step<N>,
+    /// With what density light sampling would have drawn the direction towards the light there.
+    pub light: f32,
+    /// On the way to the light: passing and null collisions.
+    pub after: Vec<Step<N>>,
+}
+
+fn rotated<const N: usize>(values: [f32; N], hero: usize) -> [f32; N] {
+    from_fn(|i| values[(hero + i) % N])
+}
+
+impl<const N: usize> Place<N> {
+    pub fn rotated(&self, hero: usize) -> Self {
+        let turn = |values| rotated(values, hero);
+        Self { extinction: turn(self.extinction), albedo: turn(self.albedo), majorant: turn(self.majorant) }
+    }
+
+    pub fn collision(&self, absorption: Absorption) -> Collision<N> {
+        let majorant = Sampled(self.majorant);
+        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
+        let coefficients = Coefficients::new(Sampled(self.extinction), Sampled(self.albedo), &segment);
+        Collision::new(Vec3::ZERO, coefficients, absorption)
+    }
+}
+
+impl<const N: usize> Step<N> {
+    fn rotated(self, hero: usize) -> Self {
+        match self {
+            Self::Pass { majorant, distance } => Self::Pass { majorant: rotated(majorant, hero), distance },
+            Self::Null(place) => Self::Null(place.rotated(hero)),
+            Self::Scatter(place, density) => Self::Scatter(place.rotated(hero), density),
+            Self::Reflect(albedo, density) => Self::Reflect(rotated(albedo, hero), density),
+            Self::Survive(q) => Self::Survive(q),
+        }
+    }
+
+    /// What f, p_uni and p_nee are multiplied by at component `i`. The density of a vertex's direction
+    /// is left out of p_nee.
+    fn factors(&self, i: usize, absorption: Absorption) -> [f64; 3] {
+        let of = |p: &Place<N>| [p.extinction[i], p.albedo[i], p.majorant[i]].map(f64::from);
+        match self {
+            Self::Pass { majorant, distance } => [(-f64::from(majorant[i]) * f64::from(*distance)).exp(); 3],
+            Self::Null(place) => {
+                let [t, _, m] = of(place);
+                [m - t, (m - t).abs() * m / (t + (m - t).abs()), m]
+            }
+            Self::Scatter(place, density) => {
+                let ([t, albedo, m], density) = (of(place), f64::from(*density));
+                let drawn = match absorption {
+                    Absorption::Analogue => t * albedo,
+                    Absorption::Weighted => t,
+                } * m
+                    / (t + (m - t).abs());
+                [t * albedo * density, drawn * density, drawn]
+            }
+            Self::Reflect(albedo, density) => {
+                [f64::from(albedo[i]) * f64::from(*density), f64::from(*density), 1.0]
+            }
+            Self::Survive(q) => [1.0 / f64::from(*q), 1.0, 1.0],
+        }
+    }
+}
+
+/// f, p_uni and p_nee of a whole path, and the quotients p_i / f_j, which are kept event by event.
+pub(super) struct Plain<const N: usize> {
+    pub f: [f64; N],
+    pub uni: [f64; N],
+    pub nee: [f64; N],
+    pub uni_over_f: [[f64; N]; N],
+    pub nee_over_f: [[f64; N]; N],
+}
+
+impl<const N: usize> Events<N> {
+    /// The same path with another component as the hero.
+    pub fn rotated(&self, hero: usize) -> Self {
+        let turn = |steps: &[Step<N>]| steps.iter().map(|step| step.rotated(hero)).collect();
+        Self {
+            before: turn(&self.before),
+            vertex: self.vertex.rotated(hero),
+            after: turn(&self.after),
+            ..*self
+        }
+    }
+
+    /// The same path without roulette.
+    pub fn without_roulette(&self) -> Self {
+        let mut events = self.clone();
+        events.before.retain(|step| !matches!(step, Step::Survive(_)));
+        events
+    }
+
+    fn apply(&self, path: &mut PathWeights<N>, step: &Step<N>) {
+        match step {
+            Step::Pass { majorant, distance } => path.pass(Sampled(*majorant), *distance),
+            Step::Null(place) => path.null(&place.collision(self.absorption)),
+            Step::Scatter(place, _) => path.scatter(&place.collision(self.absorption)),
+            Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
+            Step::Survive(q) => path.survive(*q),
+        }
+        // The last vertex is left by one technique or the other.
+        if let Step::Scatter(_, density) | Step::Reflect(_, density) = step {
+            path.leave(*density);
+        }
+    }
+
+    fn up_to_vertex(&self) -> PathWeights<N> {
+        let mut path = PathWeights::CAMERA;
+        self.before.iter().for_each(|step| self.apply(&mut path, step));
+        path
+    }
+
+    /// The weights as the walk makes the path.
+    pub fn walk(&self) -> PathWeights<N> {
+        let mut path = self.up_to_vertex();
+        self.apply(&mut path, &self.vertex);
+        self.after.iter().for_each(|step| self.apply(&mut path, step));
+        path
+    }
+
+    /// The weights as a connection from the last vertex makes the path.
+    pub fn connection(&self) -> PathWeights<N> {
+        let mut path = self.up_to_vertex();
+        let density = match &self.vertex {
+            Step::Scatter(place, density) => {
+                path.scatter(&place.collision(self.absorption));
+                *density
+            }
+            Step::Reflect(albedo, density) => {
+                path.reflect(Sampled(*albedo));
+                *density
+            }
+            other => panic!("{other:?} is no vertex"),
+        };
+        let mut link = path.connect(density, self.light);
+        for step in &self.after {
+            match step {
+                Step::Pass { majorant, distance } => link.pass(Sampled(*majorant), *distance),
+                Step::Null(place) => link.null_by_ratio(&place.collision(self.absorption)),
+                other => panic!("{other:?} on the way to a light"),
+            }
+        }
+        link
+    }
+
+    /// The definitions.
+    pub fn plain(&self) -> Plain<N> {
+        let ones = [[1.0; N]; N];
+        let mut plain =
+            Plain { f: [1.0; N], uni: [1.0; N], nee: [1.0; N], uni_over_f: ones, nee_over_f: ones };
+        // Until the last vertex both techniques do the same; there p_nee gets the light's density.
+        for step in &self.before {
+            plain.multiply(|i| {
+                let [f, uni, _] = step.factors(i, self.absorption);
+                [f, uni, uni]
+            });
+        }
+        plain.multiply(|i| {
+            let [f, uni, nee] = self.vertex.factors(i, self.absorption);
+            [f, uni, nee * f64::from(self.light)]
+        });
+        for step in &self.after {
+            plain.multiply(|i| step.factors(i, self.absorption));
+        }
+        plain
+    }
+}
+
+impl<const N: usize> Plain<N> {
+    fn multiply(&mut self, factors: impl Fn(usize) -> [f64; 3]) {
+        for i in 0..N {
+            let [f, uni, nee] = factors(i);
+            self.f[i] *= f;
+            self.uni[i] *= uni;
+            self.nee[i] *= nee;
+            for j in 0..N {
+                self.uni_over_f[i][j] *= uni / factors(j)[0];
+                self.nee_over_f[i][j] *= nee / factors(j)[0];
+            }
+        }
+    }
+}
+
+/// A value per component, now and then zero at one of them.
+fn values<const N: usize>(lo: f32, hi: f32) -> impl Strategy<Value = [f32; N]> {
+    (uniform(lo..hi), 0usize..100).prop_map(|(mut values, dark)| {
+        if N > 1 && dark < N {
+            values[dark] = 0.0;
+        }
+        values
+    })
+}
+
+fn place<const N: usize>() -> impl Strategy<Value = Place<N>> {
+    (values(0.2, 3.0), values(0.1, 1.0), uniform(0.3f32..4.0))
+        .prop_map(|(extinction, albedo, majorant)| Place { extinction, albedo, majorant })
+        .prop_filter("null coefficients that have digits", |p: &Place<N>| {
+            (0..N).all(|i| (p.majorant[i] - p.extinction[i]).abs() > 0.02)
+        })
+}
+
+fn vertex<const N: usize>() -> impl Strategy<Value = Step<N>> {
+    prop_oneof![
+        3 => (place(), 0.01f32..3.0).prop_map(|(place, density)| Step::Scatter(place, density)),
+        1 => (values(0.1, 1.0), 0.01f32..0.3).prop_map(|(albedo, density)| Step::Reflect(albedo, density)),
+    ]
+}
+
+fn on_the_way<const N: usize>() -> impl Strategy<Value = Step<N>> {
+    prop_oneof![
+        (uniform(0.1f32..4.0), 0.01f32..0.5)
+            .prop_map(|(majorant, distance)| Step::Pass { majorant, distance }),
+        place().prop_map(Step::Null),
+    ]
+}
+
+pub(super) fn events<const N: usize>() -> impl Strategy<Value = Events<N>> {
+    let before = prop_oneof![
+        4 => on_the_way(),
+        3 => vertex(),
+        1 => (0.05f32..1.0).prop_map(Step::Survive),
+    ];
+    let absorption = prop_oneof![Just(Absorption::Analogue), Just(Absorption::Weighted)];
+    (
+        absorption,
+        prop::collection::vec(before, 0..16),
+        vertex(),
+        0.01f32..5.0,
+        prop::collection::vec(on_the_way(), 0..10),
+    )
+        .prop_map(|(absorption, before, vertex, light, after)| Events {
+            absorption,
+            before,
+            vertex,
+            light,
+            after,
+        })
+}
