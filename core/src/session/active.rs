@@ -7,6 +7,7 @@ use crate::film::{Film, Snapshot, Tally};
 use crate::scene::{RenderDoc, Scene};
 use crate::transport::Wanted;
 use rayon::ThreadPool;
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
@@ -131,14 +132,14 @@ impl Active {
     }
 
     /// Runs one pass; false if it was cancelled, which leaves the view unusable.
-    pub fn advance(&mut self) -> bool {
+    pub fn advance(&mut self, rows_per_task: NonZeroUsize) -> bool {
         let count = self.next_samples();
         let began = Instant::now();
         let first = u64::from(self.spp);
         let samples = first..first + u64::from(count);
         // The film is lent to the pass; a cancelled one is not worth having back.
         let mut film = std::mem::replace(&mut self.film, Film::new(0, 0));
-        let cost = self.pool.install(|| self.work().add_samples(&mut film, &samples));
+        let cost = self.pool.install(|| self.work().add_samples(&mut film, &samples, rows_per_task));
         self.film = film;
         let Some(cost) = cost else { return false };
         self.spp += count;

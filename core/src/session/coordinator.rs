@@ -7,6 +7,7 @@ use super::{Job, Status, ViewId, preview};
 use crate::estimator::{self, Settings};
 use crate::io::Library;
 use std::collections::{BTreeMap, BTreeSet};
+use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
@@ -14,6 +15,9 @@ use std::time::Instant;
 const COARSE_PATHS: usize = 8192;
 /// A finer preview is worth it only if a whole pass would take longer than this.
 const FINE_PREVIEW_SECONDS: f64 = 0.2;
+
+/// Workers take a row at a time: few enough to stop soon and to share the last rows of a pass.
+const ROWS_PER_TASK: NonZeroUsize = NonZeroUsize::MIN;
 
 /// Runs until the mailbox is closed.
 pub(super) fn run(mailbox: &Mailbox, library: Library) {
@@ -78,7 +82,7 @@ impl Coordinator<'_> {
         let Some((id, view)) = runnable.min_by(|(_, a), (_, b)| a.turn.total_cmp(&b.turn)) else { return };
         let id = *id;
         // A panicking worker must not take the session with it.
-        let pass = catch_unwind(AssertUnwindSafe(|| view.advance().then(|| view.snapshot())));
+        let pass = catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK).then(|| view.snapshot())));
         match pass {
             Ok(Some(snapshot)) => self.mailbox.publish_snapshot(id, snapshot, view.status()),
             Ok(None) => {

@@ -6,6 +6,7 @@ use crate::scene::Scene;
 use crate::transport::Wanted;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
+use std::num::NonZeroUsize;
 use std::ops::Range;
 
 /// What a pass has cost.
@@ -40,15 +41,22 @@ impl Work<'_> {
     }
 
     /// Adds samples to every pixel of a film; `None` if it was cancelled, which leaves the film
-    /// unusable. Rows are the unit of work, each owned by one thread at a time.
-    pub fn add_samples(&self, film: &mut Film, samples: &Range<u64>) -> Option<Cost> {
-        let rows = film.pixels.par_chunks_mut(film.width).enumerate().with_max_len(1);
-        let costs: Option<Vec<Cost>> = rows
-            .map(|(y, row)| {
+    /// unusable. A task is a band of so many rows, owned by one thread at a time; the film does not
+    /// depend on how many.
+    pub fn add_samples(
+        &self,
+        film: &mut Film,
+        samples: &Range<u64>,
+        rows_per_task: NonZeroUsize,
+    ) -> Option<Cost> {
+        let (width, rows) = (film.width, rows_per_task.get());
+        let bands = film.pixels.par_chunks_mut(width * rows).enumerate().with_max_len(1);
+        let costs: Option<Vec<Cost>> = bands
+            .map(|(band, pixels)| {
                 let clock = ThreadTime::now();
                 let mut tally = Tally::default();
-                for (x, pixel) in row.iter_mut().enumerate() {
-                    self.add_to_pixel((x, y), pixel, samples, &mut tally);
+                for (i, pixel) in pixels.iter_mut().enumerate() {
+                    self.add_to_pixel((i % width, band * rows + i / width), pixel, samples, &mut tally);
                     // Asked after each pixel: the estimate of an unwanted path must not be kept.
                     if !self.wanted.yes() {
                         return None;
@@ -57,7 +65,7 @@ impl Work<'_> {
                 Some(Cost { tally, cpu_seconds: clock.elapsed().as_secs_f64() })
             })
             .collect();
-        // Merged in the order of rows, so that the located samples do not depend on threads either.
+        // Merged from the top, so that the located samples do not depend on threads either.
         costs.map(|costs| costs.into_iter().fold(Cost::default(), Cost::merge))
     }
 
@@ -76,6 +84,72 @@ impl Work<'_> {
                 pixel.add(estimate.rgb.to_array());
             } else {
                 tally.reject(NonFinite { x: x as u32, y: y as u32, sample });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator;
+    use crate::io::Library;
+    use crate::scene::{SceneDoc, build};
+    use glam::Vec3;
+
+    const SAMPLES: u64 = 6;
+
+    /// Every third path of a row has no value.
+    fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+        let value = if (at.x + at.y).is_multiple_of(3) { f32::NAN } else { at.sample as f32 };
+        PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x) }
+    }
+
+    /// A film of 11 rows after passes that end at these samples, with what it has cost.
+    fn film(kernel: Kernel, ends: &[u64], rows_per_task: usize) -> (Vec<Pixel>, Tally) {
+        let mut doc = SceneDoc::default();
+        (doc.film.width, doc.film.height) = (7, 11);
+        let scene = build(&doc, &mut Library::default()).unwrap();
+        let settings = Settings::new(&doc.estimator, 3);
+        let work = Work { scene: &scene, kernel, settings: &settings, wanted: Wanted::ALWAYS };
+        let mut film = Film::new(7, 11);
+        let mut tally = Tally::default();
+        let mut first = 0;
+        for end in ends {
+            let rows = NonZeroUsize::new(rows_per_task).unwrap();
+            tally.merge(&work.add_samples(&mut film, &(first..*end), rows).unwrap().tally);
+            first = *end;
+        }
+        (film.pixels, tally)
+    }
+
+    fn kernels() -> [Kernel; 2] {
+        [estimator::find("uni-nee-mis").unwrap().kernel, now_and_then_nan]
+    }
+
+    #[test]
+    fn a_film_does_not_depend_on_the_size_of_tasks() {
+        for kernel in kernels() {
+            let by_row = film(kernel, &[SAMPLES], 1);
+            assert_eq!(by_row.1.paths, 7 * 11 * SAMPLES);
+            for rows in [2, 5, 11, 1000] {
+                assert_eq!(film(kernel, &[SAMPLES], rows), by_row, "{rows} rows a task");
+            }
+        }
+    }
+
+    /// Every way to split the samples into passes; only the choice of located samples may differ.
+    #[test]
+    fn a_film_does_not_depend_on_how_its_samples_are_split() {
+        for kernel in kernels() {
+            let whole = film(kernel, &[SAMPLES], 1);
+            for cuts in 0..1u32 << (SAMPLES - 1) {
+                let ends: Vec<u64> =
+                    (1..=SAMPLES).filter(|s| *s == SAMPLES || cuts >> (s - 1) & 1 == 1).collect();
+                let (pixels, tally) = film(kernel, &ends, 3);
+                assert_eq!(pixels, whole.0, "passes that end at {ends:?}");
+                let counts = |t: &Tally| (t.paths, t.lookups, t.non_finite, t.located.len());
+                assert_eq!(counts(&tally), counts(&whole.1), "passes that end at {ends:?}");
             }
         }
     }
