@@ -70,7 +70,10 @@ impl Mailbox {
     }
 
     pub fn submit(&self, view: ViewId, job: Job) -> u64 {
-        let mut inner = self.lock();
+        self.submit_locked(&mut self.lock(), view, job)
+    }
+
+    fn submit_locked(&self, inner: &mut Inner, view: ViewId, job: Job) -> u64 {
         inner.generations += 1;
         let generation = inner.generations;
         let public = inner.views.entry(view).or_insert_with(Public::new);
@@ -87,10 +90,12 @@ impl Mailbox {
         generation
     }
 
+    /// Submits a view's job again. Under one lock: nobody's newer job is lost, no removed view comes back.
     pub fn restart(&self, view: ViewId) {
-        let job = self.lock().views.get(&view).and_then(|p| p.job.clone());
+        let mut inner = self.lock();
+        let job = inner.views.get(&view).and_then(|p| p.job.clone());
         if let Some(job) = job {
-            self.submit(view, job);
+            self.submit_locked(&mut inner, view, job);
         }
     }
 
@@ -177,6 +182,45 @@ impl Mailbox {
             p.state.first_picture_seconds.get_or_insert(waited);
             p.state.status = status;
             p.state.snapshot = Some(Arc::new(snapshot));
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::SceneDoc;
+    use std::sync::atomic::AtomicBool;
+
+    fn job(seed: u64) -> Job {
+        let mut doc = SceneDoc::default();
+        doc.render.seed = seed;
+        Job { doc: Arc::new(doc), preview: false }
+    }
+
+    #[test]
+    fn a_restart_meanwhile_loses_no_newer_job_and_brings_no_view_back() {
+        let (mailbox, view) = (Mailbox::new(Box::new(|| {})), ViewId(0));
+        let newest = || mailbox.lock().views.get(&view).and_then(|p| p.job.clone());
+        let done = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.load(Ordering::Relaxed) {
+                    mailbox.restart(view);
+                }
+            });
+            for seed in 0..5000 {
+                mailbox.submit(view, job(seed));
+                let kept = (0..20).all(|_| newest() == Some(job(seed)));
+                mailbox.send(Command::Remove { view });
+                let gone = (0..20).all(|_| newest().is_none());
+                mailbox.take(false);
+                if !(kept && gone) {
+                    done.store(true, Ordering::Relaxed);
+                    panic!("job {seed}: kept {kept}, gone {gone}");
+                }
+            }
+            done.store(true, Ordering::Relaxed);
         });
     }
 }
