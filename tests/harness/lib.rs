@@ -9,5 +9,6 @@
 
 pub mod chi2;
 pub mod render;
+pub mod session;
 pub mod stats;
 pub mod volumes;

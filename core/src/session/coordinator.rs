@@ -120,11 +120,13 @@ impl Coordinator<'_> {
 
     fn activate(&mut self, id: ViewId, generation: u64, job: &Job) -> Result<Active, String> {
         let doc = &job.doc;
-        let scene = self.keeper.scene(doc)?;
+        let pool = self.keeper.pool(doc.render.threads)?;
+        // The view's own workers read its files: no more threads than were asked for, and none of the
+        // process's that would outlive the session.
+        let scene = pool.install(|| self.keeper.scene(doc))?;
         let entry = estimator::find(&doc.estimator.id)
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
-        let pool = self.keeper.pool(doc.render.threads)?;
         let current = self.mailbox.current(id);
         let mut view = Active::new((generation, current), scene, (entry.kernel, settings), pool, &doc.render);
         view.paused = self.paused.contains(&id);

@@ -71,7 +71,8 @@ pub struct ViewState {
     pub first_picture_seconds: Option<f64>,
 }
 
-/// Progressive renders in the background. Dropping it cancels the work and joins its threads.
+/// Progressive renders in the background. Dropping it cancels the work, waits until it has stopped, and
+/// ends its threads.
 pub struct Session {
     mailbox: Arc<Mailbox>,
     coordinator: Option<JoinHandle<()>>,

@@ -1,0 +1,102 @@
+//! A session under watch: its views' states are waited for, never slept for.
+
+use majorant_core::film::Snapshot;
+use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::scene::SceneDoc;
+use majorant_core::session::{Job, Session, Status, ViewId, ViewState};
+use std::ops::Deref;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::time::Duration;
+
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A small embedded scene with a grid, rendered by so many threads up to a limit.
+pub fn small_doc(threads: usize, spp: u32) -> SceneDoc {
+    let text = embedded::find("first-light").unwrap().toml;
+    let mut doc = scene_file::parse(text, "first-light").unwrap();
+    (doc.film.width, doc.film.height) = (61, 37);
+    doc.render.threads = Some(threads);
+    (doc.render.spp, doc.render.seconds) = (Some(spp), None);
+    doc
+}
+
+/// A job of a document.
+pub fn job(doc: &SceneDoc, preview: bool) -> Job {
+    Job { doc: Arc::new(doc.clone()), preview }
+}
+
+/// A session that tells when there is something new to see.
+pub struct Watched {
+    session: Session,
+    woken: Receiver<()>,
+}
+
+impl Deref for Watched {
+    type Target = Session;
+    fn deref(&self) -> &Session {
+        &self.session
+    }
+}
+
+impl Watched {
+    pub fn new() -> Self {
+        let (wake, woken) = sync_channel(1);
+        let session = Session::new(Library::default(), move || {
+            let _ = wake.try_send(());
+        });
+        Self { session: session.unwrap(), woken }
+    }
+
+    /// Waits until a view is in a state that is wanted.
+    pub fn wait(&self, view: ViewId, wanted: impl Fn(&ViewState) -> bool) -> ViewState {
+        loop {
+            let state = self.session.state(view);
+            if wanted(&state) {
+                return state;
+            }
+            if let Status::Failed(message) = &state.status {
+                panic!("{message}");
+            }
+            self.woken
+                .recv_timeout(PATIENCE)
+                .unwrap_or_else(|_| panic!("the session went silent: {state:?}"));
+        }
+    }
+
+    /// Waits until the newest submission of a view has a picture that is wanted.
+    pub fn wait_picture(&self, view: ViewId, wanted: impl Fn(&Status, &Snapshot) -> bool) -> Arc<Snapshot> {
+        let current = |state: &ViewState| {
+            state.snapshot.clone().filter(|s| s.generation == state.generation && wanted(&state.status, s))
+        };
+        current(&self.wait(view, |state| current(state).is_some())).unwrap()
+    }
+
+    /// Waits until a view has reached its limit.
+    pub fn wait_finished(&self, view: ViewId) -> Arc<Snapshot> {
+        self.wait_picture(view, |status, _| *status == Status::Finished)
+    }
+}
+
+impl Default for Watched {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// What an undisturbed session makes of a document.
+pub fn finished(doc: &SceneDoc) -> Arc<Snapshot> {
+    let session = Watched::new();
+    session.submit(ViewId(0), job(doc, false));
+    session.wait_finished(ViewId(0))
+}
+
+/// Bit by bit.
+pub fn assert_same(a: &Snapshot, b: &Snapshot) {
+    assert_eq!(a.spp, b.spp);
+    let bits = |s: &Snapshot| -> Vec<u32> {
+        s.mean.iter().chain(&s.standard_error).flatten().map(|x| x.to_bits()).collect()
+    };
+    assert!(bits(a) == bits(b), "the images differ");
+    assert_eq!(a.tally, b.tally);
+}
