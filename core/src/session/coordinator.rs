@@ -6,6 +6,7 @@ use super::mailbox::{Command, Mailbox};
 use super::{Job, Status, ViewId, preview};
 use crate::estimator::{self, Settings};
 use crate::io::Library;
+use crate::transport::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -102,6 +103,10 @@ impl Coordinator<'_> {
 
     fn start(&mut self, id: ViewId, generation: u64, job: &Job) {
         self.views.remove(&id);
+        // Nobody waits for it any more: a closing session must not build all that was asked of it.
+        if !Wanted::new(&self.mailbox.current(id), generation).yes() {
+            return;
+        }
         let built = catch_unwind(AssertUnwindSafe(|| self.activate(id, generation, job)))
             .unwrap_or_else(|panic| Err(internal_error(&*panic)));
         let view = match built {
@@ -171,7 +176,6 @@ mod tests {
     use super::*;
     use crate::estimator::{Kernel, PathEstimate, PathIndex};
     use crate::scene::{Scene, SceneDoc};
-    use crate::transport::Wanted;
     use std::sync::Arc;
 
     fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
@@ -228,5 +232,25 @@ mod tests {
         coordinator.advance_next();
         let later = mailbox.state(id).snapshot.unwrap();
         assert_eq!((later.mean[1], later.tally.non_finite), ([0.5; 3], 2));
+    }
+
+    #[test]
+    fn a_start_that_nobody_waits_for_is_not_built() {
+        let (mailbox, id) = (Mailbox::new(Box::new(|| {})), ViewId(0));
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: true };
+        let keeper = Keeper::new(Library::default());
+        let mut coordinator =
+            Coordinator { mailbox: &mailbox, keeper, views: BTreeMap::new(), paused: BTreeSet::new() };
+        let superseded = mailbox.submit(id, job.clone());
+        let removed = mailbox.submit(id, job.clone());
+        coordinator.start(id, superseded, &job);
+        assert!(coordinator.views.is_empty());
+        mailbox.send(Command::Remove { view: id });
+        coordinator.start(id, removed, &job);
+        assert!(coordinator.views.is_empty());
+        let closed = mailbox.submit(id, job.clone());
+        mailbox.shut_down();
+        coordinator.start(id, closed, &job);
+        assert!(coordinator.views.is_empty());
     }
 }
