@@ -59,6 +59,16 @@ fn limits_raised_step_by_step_do_not_matter() {
 }
 
 #[test]
+fn a_restart_keeps_the_limits_that_were_set_last() {
+    let session = Watched::new();
+    session.submit(VIEW, job(&small_doc(2, 2), false));
+    session.set_limits(VIEW, Some(5), None);
+    session.wait_picture(VIEW, |_, s| s.spp == 5);
+    session.restart(VIEW);
+    assert_same(&session.wait_finished(VIEW), &finished(&small_doc(2, 5)));
+}
+
+#[test]
 fn an_edit_cancels_starts_over_and_keeps_generations_apart() {
     let session = Watched::new();
     let mut long = small_doc(2, 1 << 20);

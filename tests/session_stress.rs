@@ -31,14 +31,25 @@ fn documents() -> Vec<(SceneDoc, Arc<Snapshot>)> {
     ]
 }
 
+/// A view shows what it was given last, or still the picture that it had then: no other.
+fn assert_not_stale(session: &Watched, view: ViewId, before: Option<&Arc<Snapshot>>) {
+    let state = session.state(view);
+    let newest = state.snapshot.as_ref().is_some_and(|s| s.generation == state.generation);
+    let kept = state.snapshot.as_ref().map(Arc::as_ptr) == before.map(Arc::as_ptr);
+    assert!(newest || kept, "{view:?} shows the picture of a job that was replaced");
+    assert!(newest || state.status != Status::Finished, "{view:?} is finished without its picture");
+}
+
 /// Asks a session for one thing after another; returns which document each view was given last.
 fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) -> Vec<Option<usize>> {
     let mut random = Sampler::new(seed, 0, 0);
     let mut below = |n: u32| (random.next_1d() * n as f32) as u32;
     let mut given = vec![None; VIEWS as usize];
+    let mut before = vec![None; VIEWS as usize];
     for _ in 0..REQUESTS {
         let index = below(VIEWS);
         let view = ViewId(index);
+        let generation = session.state(view).generation;
         match below(10) {
             0 | 1 => session.set_paused(view, below(2) == 0),
             2 | 3 => session.step(view),
@@ -55,9 +66,15 @@ fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) 
                 assert_eq!(session.state(view).status, Status::Empty);
             }
         }
+        if session.state(view).generation != generation {
+            before[index as usize] = session.state(view).snapshot;
+        }
         // Often at once, now and then in the middle of a build, a preview or a pass.
         if below(3) == 0 {
             std::thread::sleep(Duration::from_micros(u64::from(below(6000))));
+        }
+        for (view, before) in (0..).map(ViewId).zip(&before) {
+            assert_not_stale(session, view, before.as_ref());
         }
     }
     given
