@@ -10,5 +10,4 @@
 pub mod chi2;
 pub mod render;
 pub mod session;
-pub mod stats;
 pub mod volumes;

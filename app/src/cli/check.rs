@@ -20,7 +20,8 @@ seen with 95 % probability, and the verdict. --deep sees 1 % instead of 3, adds 
 independent renderers, and takes minutes.
 
 --json prints one line: passes, seconds, notes, and rows of scene, estimator, mode, measured, error,
-expected, z, worst_z, critical_z, detectable, paths, verdict (agrees, differs with from, not-finite).
+expected, z, worst_z, critical_z, detectable, paths, verdict (agrees, undecided: too
+noisy to tell, differs with from, not-finite).
 
 Exit code 1 if anything differs.")]
 pub(super) struct Arguments {
@@ -74,8 +75,10 @@ fn finish(report: &Report, json: bool) -> Result<(), Failure> {
         for note in &report.notes {
             print_line(&format!("note: {note}"))?;
         }
-        let agree = report.rows.iter().filter(|row| row.passes()).count();
-        print_line(&format!("{agree} of {} agree, in {:.1} s", report.rows.len(), report.seconds))?;
+        let (agree, undecided) = report.agreeing_and_undecided();
+        let noisy =
+            if undecided > 0 { format!(", {undecided} are too noisy to tell") } else { String::new() };
+        print_line(&format!("{agree} of {} agree{noisy}, in {:.1} s", report.rows.len(), report.seconds))?;
     }
     let failures: Vec<_> = report.failures().map(|r| format!("{} {}", r.scene, r.estimator)).collect();
     if failures.is_empty() {
@@ -129,6 +132,7 @@ fn heading(width: usize) -> String {
 fn line(row: &Row, width: usize) -> String {
     let verdict = match &row.verdict {
         Verdict::Agrees => "agrees".to_owned(),
+        Verdict::Undecided => "too noisy to tell".to_owned(),
         Verdict::Differs { from } => format!("DIFFERS from {}", from.join(", ")),
         Verdict::NotFinite { x, y, sample } => format!("NOT FINITE in pixel ({x}, {y}), sample {sample}"),
     };

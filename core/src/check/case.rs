@@ -18,6 +18,8 @@ pub struct Case {
     pub answer: Answer,
     /// Where the scene's files come from.
     pub library: Library,
+    /// The estimators to choose from.
+    pub registry: &'static [Entry],
     /// The most paths of one estimator, where some are too inefficient for the power that is wished for.
     pub budget: Option<u64>,
 }
@@ -30,7 +32,15 @@ impl Case {
     pub fn new(name: impl Into<String>, toml: &str, answer: Answer) -> Result<Self, CheckError> {
         let name = name.into();
         let doc = scene_file::parse(toml, &name)?;
-        Ok(Self { name, doc, layout: Layout::WHOLE, answer, library: Library::default(), budget: None })
+        Ok(Self {
+            name,
+            doc,
+            layout: Layout::WHOLE,
+            answer,
+            library: Library::default(),
+            registry: REGISTRY,
+            budget: None,
+        })
     }
 
     /// The same with other blocks.
@@ -71,7 +81,7 @@ impl Case {
     /// The estimators that are unbiased for it.
     #[must_use]
     pub fn estimators(&self) -> Vec<&'static Entry> {
-        REGISTRY.iter().filter(|e| e.bias(&self.doc).is_none()).collect()
+        self.registry.iter().filter(|e| e.bias(&self.doc).is_none()).collect()
     }
 
     /// Comparisons that it amounts to over all its estimators.

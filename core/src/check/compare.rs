@@ -41,10 +41,36 @@ fn values(image: &Batches) -> Vec<Value> {
         .collect()
 }
 
-/// Whether a series of batch means knows its own noise. Where light is met in few batches only, the scatter
-/// of what was seen tells nothing of what was missed; such a block is judged as part of the whole.
+/// The largest skewness of a series of batch means whose t-test can be trusted in its far tails. Of 128
+/// Gaussian means it is 0 ± 0.22; beyond 1, rare paths of great weight decide, and what was missed of them
+/// shows nowhere.
+const LARGEST_SKEWNESS: f64 = 1.0;
+
+/// Whether a series of batch means knows its own noise: a path that brings light is no rarity in it, and its
+/// scatter has no long tail. Otherwise the scatter of what was seen tells nothing of what was missed, and a
+/// block is judged as part of the whole.
 fn knows_its_noise(series: &[f64]) -> bool {
-    2 * series.iter().filter(|mean| **mean != 0.0).count() >= series.len()
+    let n = series.len() as f64;
+    let seen = series.iter().filter(|mean| **mean != 0.0).count();
+    let (mean, _) = mean_and_error(series);
+    let moment = |power: i32| series.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / n;
+    let deviation = moment(2).sqrt();
+    // A constant but for its rounding is as well known as can be.
+    let constant = deviation <= ROUNDING * mean.abs();
+    2 * seen >= series.len() && (constant || moment(3).abs() <= LARGEST_SKEWNESS * deviation.powi(3))
+}
+
+/// Beyond this detectable bias an image is too noisy for a verdict.
+const TOO_NOISY: f64 = 0.25;
+
+/// The relative bias of the whole image's mean that would be found with the stated power.
+fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
+    let (mean, error) = image.whole();
+    if !image.series.last().is_some_and(|s| knows_its_noise(s)) {
+        return f64::INFINITY;
+    }
+    let whole = Comparison::new(Value { mean, error }, expected);
+    (critical + power_t(DOF)) * whole.error / expected.mean.abs()
 }
 
 /// The z of every pair of values, the last being that of the whole image.
@@ -71,12 +97,12 @@ fn row(
 ) -> Row {
     let (mean, error) = image.whole();
     let whole = Comparison::new(Value { mean, error }, expected);
-    let blind = !image.series.last().is_some_and(|s| knows_its_noise(s));
-    let seen = (critical_z + power_t(DOF)) * whole.error / expected.mean.abs();
+    let detectable = detectable(image, expected, critical_z);
     let verdict = match image.non_finite {
         Some(at) => at.into(),
-        None if differs_from.is_empty() => Verdict::Agrees,
-        None => Verdict::Differs { from: differs_from },
+        None if !differs_from.is_empty() => Verdict::Differs { from: differs_from },
+        None if detectable <= TOO_NOISY => Verdict::Agrees,
+        None => Verdict::Undecided,
     };
     Row {
         scene: case.name.clone(),
@@ -88,7 +114,7 @@ fn row(
         z: whole.z(),
         worst_z,
         critical_z,
-        detectable: if blind { f64::INFINITY } else { seen },
+        detectable,
         paths: image.paths,
         verdict,
     }
@@ -111,30 +137,40 @@ pub(super) fn against_known(
     row(case, entry, image, whole, (worst_z, critical), from)
 }
 
-/// Holds images of different estimators against each other.
+/// Holds images of different estimators against each other. Those too noisy to be judged judge nobody.
 pub(super) fn pairwise(case: &Case, images: &[(&'static Entry, Batches)], critical: f64) -> Vec<Row> {
     let all: Vec<Vec<Value>> = images.iter().map(|(_, image)| values(image)).collect();
+    let pool = |except: usize| {
+        let others = images.iter().zip(&all).enumerate().filter(|(j, _)| *j != except);
+        let known =
+            others.filter(|(_, ((_, image), _))| image.series.last().is_some_and(|s| knows_its_noise(s)));
+        pooled(known.filter_map(|(_, (_, values))| values.last()))
+    };
+    let expected: Vec<Value> = (0..images.len()).map(pool).collect();
+    let judged = |i: usize| detectable(&images[i].1, expected[i], critical) <= TOO_NOISY;
     let mut rows = Vec::new();
     for (i, (entry, image)) in images.iter().enumerate() {
         let mut worst_z = 0.0f64;
         let mut differs_from = Vec::new();
-        for (j, (other, others_image)) in images.iter().enumerate().filter(|(j, _)| *j != i) {
+        for (j, (other, others_image)) in images.iter().enumerate() {
+            if i == j || !judged(i) || !judged(j) {
+                continue;
+            }
             let against = worst(&all_z(image, Some(others_image), &all[i], &all[j]));
             worst_z = worst_z.max(against);
             if against > critical {
                 differs_from.push(other.id.to_owned());
             }
         }
-        let others = pooled(all.iter().enumerate().filter(|(j, _)| *j != i).filter_map(|(_, v)| v.last()));
-        let whole = all[i].last().map_or(f64::NAN, |mine| Comparison::new(*mine, others).z().abs());
-        // A bias too small to be seen against any one of them may be seen against all.
-        if differs_from.is_empty()
-            && whole > critical
-            && image.series.last().is_some_and(|s| knows_its_noise(s))
-        {
-            differs_from.push("the others together".to_owned());
+        if judged(i) {
+            let whole = all[i].last().map_or(0.0, |mine| Comparison::new(*mine, expected[i]).z().abs());
+            worst_z = worst_z.max(whole);
+            // A bias too small to be seen against any one of them may be seen against all.
+            if differs_from.is_empty() && whole > critical {
+                differs_from.push("the others together".to_owned());
+            }
         }
-        rows.push(row(case, entry, image, others, (worst_z.max(whole), critical), differs_from));
+        rows.push(row(case, entry, image, expected[i], (worst_z, critical), differs_from));
     }
     rows
 }

@@ -1,6 +1,7 @@
 //! A person's own scene as a case: nobody knows the answer, so the estimators are held against each other.
 
 use super::{Answer, Case, Layout};
+use crate::estimator::REGISTRY;
 use crate::io::Library;
 use crate::scene::SceneDoc;
 
@@ -18,7 +19,15 @@ pub fn own_scene(name: impl Into<String>, doc: &SceneDoc, library: Library) -> C
     if longer > LONGER_SIDE {
         (doc.film.width, doc.film.height) = (shrunk(width), shrunk(height));
     }
-    let blocks = |side: u32| (side / 6).clamp(1, 4);
+    let blocks = |side: u32| (side / 8).clamp(1, 2);
     let layout = Layout { columns: blocks(doc.film.width), rows: blocks(doc.film.height) };
-    Case { name: name.into(), doc, layout, answer: Answer::Agreement, library, budget: None }
+    Case {
+        name: name.into(),
+        doc,
+        layout,
+        answer: Answer::Agreement,
+        library,
+        registry: REGISTRY,
+        budget: None,
+    }
 }

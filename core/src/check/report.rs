@@ -10,6 +10,8 @@ use serde::Serialize;
 pub enum Verdict {
     /// All comparisons are within what chance allows.
     Agrees,
+    /// The image is too noisy to tell: a bias of a quarter could hide in it, or rare paths decide.
+    Undecided,
     /// At least one is not.
     Differs {
         /// From whom: the answer, or the ids of other estimators.
@@ -67,7 +69,7 @@ impl Row {
     /// Whether nothing is wrong.
     #[must_use]
     pub fn passes(&self) -> bool {
-        self.verdict == Verdict::Agrees
+        matches!(self.verdict, Verdict::Agrees | Verdict::Undecided)
     }
 }
 
@@ -87,6 +89,13 @@ impl Report {
     #[must_use]
     pub fn passes(&self) -> bool {
         self.rows.iter().all(Row::passes)
+    }
+
+    /// How many rows agree, and of how many nothing can be said.
+    #[must_use]
+    pub fn agreeing_and_undecided(&self) -> (usize, usize) {
+        let count = |v: &Verdict| self.rows.iter().filter(|row| row.verdict == *v).count();
+        (count(&Verdict::Agrees), count(&Verdict::Undecided))
     }
 
     /// The rows that something is wrong with.

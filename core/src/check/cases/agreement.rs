@@ -92,8 +92,8 @@ file = \"sky\"
 rotate_deg = 40.0
 [[lights]]
 kind = \"rectangle\"
-center = [0.1, 0.1, 0.1]
-target = [-0.4, 0.5, 0.2]
+center = [0.1, 0.9, 0.1]
+target = [0.0, 0.0, 0.0]
 size = [0.5, 0.5]
 scale = 2.0
 visible = false
@@ -114,7 +114,6 @@ radiance = \"tungsten\"
 scale = 5.0
 [[lights]]
 kind = \"environment\"
-scale = 0.5
 visible = false
 [estimator]
 max_depth = 3

@@ -61,7 +61,7 @@ fn occluder() -> Result<Case, CheckError> {
         Cube { extinction, albedo: 0.9 }.single_fine(
             (400, 50),
             isotropic,
-            |_| sun(toward, 80.0, 2.0),
+            |_| sun(toward, 120.0, 2.0),
             |point, omega| truth::box_interval(point, omega, center, half).is_none_or(|(_, far)| far < 0.0),
         )
     });
@@ -71,7 +71,7 @@ fn occluder() -> Result<Case, CheckError> {
         [[lights]]
         kind = \"sun\"
         toward = [1.0, 0.1, 0.2]
-        angular_diameter_deg = 80.0
+        angular_diameter_deg = 120.0
         irradiance = 2.0
         visible = false
         [[objects]]
@@ -143,7 +143,7 @@ fn tiny_sun() -> Result<Case, CheckError> {
 /// A lamp in the medium that it lights: the last stretch to it counts.
 fn lamp_inside() -> Result<Case, CheckError> {
     let center = DVec3::new(0.28, 0.0, -0.1);
-    let radius = 0.2;
+    let radius = 0.24;
     let sigma = [0.5, 2.0, 5.0];
     let colour = sigma.map(|extinction| {
         truth::midpoint(200, |s| {
@@ -167,7 +167,7 @@ fn lamp_inside() -> Result<Case, CheckError> {
         [[lights]]
         kind = \"sphere\"
         center = [0.28, 0.0, -0.1]
-        radius = 0.2
+        radius = 0.24
         radiance = 4.0
         visible = false";
     case("lamp-inside", rest, Answer::uniform(colour, Layout::WHOLE))

@@ -1,12 +1,13 @@
 //! Pictures that independent renderers have made of seven scenes.
 //!
 //! Their scenes, references and provenance stand in `tests/oracle`: block means of converged pictures in
-//! linear sRGB, with standard errors. S4 and S5 are one plume in RGB and in spectral mode. The others have
+//! linear sRGB, with standard errors, and for S6 quadrature as well. S4 and S5 are one plume in RGB and in spectral mode. The others have
 //! the same coefficients at every wavelength, so their pictures hold for spectral mode too, in the colour of
 //! illuminant E instead of white. The reference of S5 was made with a table of the observer that is
 //! 0.1 % off. Where an estimator meets light rarely, blocks are larger: every batch must know its own noise.
 
 use super::super::{Answer, Case, CheckError, Family, Value, truth};
+use crate::estimator::REGISTRY;
 use crate::io::volume::{Limits, read_volume_bytes};
 use crate::io::{Library, scene_file};
 use crate::scene::Mode;
@@ -20,6 +21,8 @@ pub(super) const FAMILY: Family = Family {
 
 struct Oracle {
     name: &'static str,
+    /// The file that the answer comes from.
+    file: &'static str,
     toml: &'static str,
     reference: &'static [u8],
     stderr: &'static [u8],
@@ -30,11 +33,12 @@ struct Oracle {
 }
 
 macro_rules! oracle {
-    ($name:literal, $side:literal, $budget:expr) => {
+    ($name:literal, $reference:literal, $side:literal, $budget:expr) => {
         Oracle {
             name: $name,
+            file: $reference,
             toml: include_str!(concat!("../../../../tests/oracle/", $name, "/scene.toml")),
-            reference: include_bytes!(concat!("../../../../tests/oracle/", $name, "/reference.npy")),
+            reference: include_bytes!(concat!("../../../../tests/oracle/", $name, "/", $reference)),
             stderr: include_bytes!(concat!("../../../../tests/oracle/", $name, "/stderr.npy")),
             side: $side,
             budget: $budget,
@@ -43,13 +47,14 @@ macro_rules! oracle {
 }
 
 static ORACLES: &[Oracle] = &[
-    oracle!("S1", 8, None),
-    oracle!("S1f", 8, None),
-    oracle!("S2", 2, Some(6_000_000)),
-    oracle!("S3", 2, Some(6_000_000)),
-    oracle!("S4", 8, None),
-    oracle!("S5", 8, None),
-    oracle!("S6", 8, None),
+    oracle!("S1", "reference.npy", 8, None),
+    oracle!("S1f", "reference.npy", 8, None),
+    oracle!("S2", "reference.npy", 2, Some(6_000_000)),
+    oracle!("S3", "reference.npy", 2, Some(6_000_000)),
+    oracle!("S4", "reference.npy", 8, None),
+    oracle!("S5", "reference.npy", 8, None),
+    oracle!("S6", "reference.npy", 8, None),
+    oracle!("S6", "analytic.npy", 8, None),
 ];
 
 fn files() -> Library {
@@ -108,17 +113,19 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             answer = answer.within(1e-3);
         }
         let side = o.side as u32;
-        let name = format!("oracle/{}", o.name);
+        let by_quadrature = o.file == "analytic.npy";
+        let name = format!("oracle/{}{}", o.name, if by_quadrature { "-analytic" } else { "" });
         let case = Case {
             name: name.clone(),
             doc,
             layout: super::super::Layout { columns: side, rows: side },
             answer,
             library: files(),
+            registry: REGISTRY,
             budget: o.budget,
         };
         // Grey: every channel has the same answer, and so has every wavelength. S2 is the slowest by far.
-        if !matches!(o.name, "S2" | "S4" | "S5") {
+        if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5") {
             let coloured = values
                 .iter()
                 .enumerate()

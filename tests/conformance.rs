@@ -1,0 +1,140 @@
+//! Every estimator × every case of the self-check, as one family of comparisons, with the power to see a
+//! bias of 1 % in any scene's mean; and proof that the check sees what it should.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    reason = "tests may panic, and print their tables"
+)]
+
+use majorant_core::check::{self, Case, Check, Effort, Report, Verdict, own_scene};
+use majorant_core::estimator::{self, Entry, PathEstimate, PathIndex, Settings};
+use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::scene::{Scene, WhenExceeded};
+use majorant_core::transport::Wanted;
+use std::collections::BTreeMap;
+
+fn run(cases: Vec<Case>, effort: Effort) -> Report {
+    let report = Check { cases, effort }.run(Wanted::ALWAYS, |progress| {
+        for r in progress.rows {
+            println!(
+                "{:36} {:13} {:9.5} {:9.5} z {:5.2} worst {:5.2} of {:4.2} sees {:5.2} % with {:>9} paths {:?}",
+                r.scene,
+                r.estimator,
+                r.measured,
+                r.expected,
+                r.z,
+                r.worst_z,
+                r.critical_z,
+                100.0 * r.detectable,
+                r.paths,
+                r.verdict
+            );
+        }
+    });
+    let report = report.unwrap_or_else(|e| panic!("{e}")).unwrap();
+    println!("{:.1} s", report.seconds);
+    report
+}
+
+#[test]
+fn every_estimator_is_true_on_every_case() {
+    let cases = check::built_in(true).unwrap();
+    let budgeted: Vec<_> = cases.iter().filter(|c| c.budget.is_some()).map(|c| c.name.clone()).collect();
+    let report = run(cases, Effort::DEEP);
+    let failures: Vec<_> = report.failures().collect();
+    assert!(failures.is_empty(), "{failures:#?}");
+    // The power that is claimed: 1 % in every scene's mean under every estimator, but for those that rarely
+    // meet the light of three scenes by other renderers, where there is a budget instead.
+    let weak: Vec<_> =
+        report.rows.iter().filter(|r| !(r.detectable <= 0.01 || budgeted.contains(&r.scene))).collect();
+    assert!(weak.is_empty(), "{weak:#?}");
+}
+
+/// The embedded scenes, as a person would have their own checked. Some are hard on purpose, with noise that
+/// rare paths decide: none may be called wrong for that.
+#[test]
+fn estimators_agree_on_the_embedded_scenes() {
+    for seed in 0..3 {
+        let scenes = embedded::SCENES.iter().map(|s| {
+            let mut doc = scene_file::parse(s.toml, s.name).unwrap();
+            doc.render.seed = seed;
+            let mut case = own_scene(s.name, &doc, Library::default());
+            case.budget = Some(120_000);
+            case
+        });
+        let report = run(scenes.collect(), Effort::QUICK);
+        assert!(report.passes(), "{:#?}", report.failures().collect::<Vec<_>>());
+        let (agree, undecided) = report.agreeing_and_undecided();
+        assert!(agree > 2 * undecided, "{agree} agree, {undecided} undecided");
+    }
+}
+
+/// An estimator that is 3 % too bright and true otherwise.
+fn bright(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+    let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, wanted);
+    PathEstimate { rgb: truth.rgb * 1.03, ..truth }
+}
+
+static BRIGHT: [Entry; 1] = [Entry {
+    id: "bright",
+    name: "Too bright",
+    summary: "",
+    reference: "",
+    bias_of: |_| None,
+    kernel: bright,
+}];
+
+/// The power that is claimed is there: a bias of the size that 95 of 100 are promised to show in does.
+#[test]
+fn a_small_bias_is_found_in_nearly_every_case() {
+    let mut cases = check::built_in(false).unwrap();
+    cases.retain(|c| matches!(c.answer, check::Answer::Known(_)));
+    for case in &mut cases {
+        case.registry = &BRIGHT;
+    }
+    let report = run(cases, Effort::QUICK);
+    let found = report.rows.iter().filter(|r| matches!(r.verdict, Verdict::Differs { .. })).count();
+    assert!(
+        report.rows.len() > 40 && found * 10 >= report.rows.len() * 9,
+        "{found} of {}",
+        report.rows.len()
+    );
+}
+
+/// The textbook mistake is labelled, so that nothing is claimed of it; unlabelled it would be caught.
+#[test]
+fn a_clamped_majorant_is_labelled_and_caught() {
+    static UNLABELLED: std::sync::LazyLock<Vec<Entry>> = std::sync::LazyLock::new(|| {
+        estimator::REGISTRY.iter().map(|e| Entry { bias_of: |_| None, ..*e }).collect()
+    });
+    let mut case = check::named("single-scattering/grid-majorant-0.5").unwrap().remove(0);
+    case.doc.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+    assert!(case.estimators().is_empty());
+    case.registry = &UNLABELLED;
+    for row in run(vec![case], Effort::QUICK).rows {
+        assert!(!row.passes(), "{row:?}");
+    }
+}
+
+/// Among estimators whose answer nobody knows, the one that is wrong is told from those that are right.
+#[test]
+fn the_odd_one_out_is_named() {
+    static WITH_BRIGHT: std::sync::LazyLock<Vec<Entry>> =
+        std::sync::LazyLock::new(|| estimator::REGISTRY.iter().copied().chain(BRIGHT).collect());
+    let mut cases = check::named("agreement/cloud").unwrap();
+    cases[0].registry = &WITH_BRIGHT;
+    let report = run(cases, Effort::DEEP);
+    let against: BTreeMap<_, _> = report
+        .rows
+        .iter()
+        .map(|r| match &r.verdict {
+            Verdict::Differs { from } => (r.estimator, from.clone()),
+            _ => (r.estimator, Vec::new()),
+        })
+        .collect();
+    assert_eq!(against["bright"].len(), 4, "{against:?}");
+    for (estimator, from) in against.iter().filter(|(id, _)| **id != "bright") {
+        assert_eq!(from, &["bright"], "{estimator}");
+    }
+}
