@@ -167,6 +167,48 @@ fn info_describes_volumes_and_scenes() {
 }
 
 #[test]
+fn check_prints_its_table_and_says_what_it_could_have_seen() {
+    let table = succeeds(&["check", "furnace/thin", "half-space/chromatic-roulette"]);
+    let lines: Vec<_> = table.lines().collect();
+    assert_eq!(lines.len(), 1 + 8 + 1, "{table}");
+    assert!(lines[0].contains("measured") && lines[0].contains("verdict"), "{table}");
+    assert!(lines[1..9].iter().all(|l| l.ends_with("  agrees")), "{table}");
+    assert!(lines[9].starts_with("8 of 8 agree"), "{table}");
+    let list = succeeds(&["check", "--list"]);
+    assert!(list.contains("half-space/weighted") && list.contains("oracle (--deep only)"), "{list}");
+}
+
+#[test]
+fn check_holds_estimators_against_each_other_on_a_scene_of_ones_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = |name: &str, majorant: &str| {
+        let path = folder.path().join(name);
+        let text = format!(
+            "majorant = 1\n[film]\nwidth = 64\nheight = 36\n[medium]\nextinction = \"450:1, 600:4\"\nalbedo = 0.7\n\
+             majorant = {{ {majorant} }}\n[[lights]]\nkind = \"environment\""
+        );
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let loose = own("loose.toml", "factor = 1.5");
+    let json: Value = serde_json::from_str(&succeeds(&["check", &loose, "--json"])).unwrap();
+    assert_eq!(json["passes"], true);
+    let rows = json["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        assert_eq!((&row["verdict"], &row["scene"]), (&"agrees".into(), &loose.as_str().into()), "{row}");
+        let number = |key: &str| row[key].as_f64().unwrap();
+        assert!(number("measured") > 0.1 && number("expected") > 0.1 && number("detectable") < 0.04, "{row}");
+        assert!(number("z").abs() <= number("critical_z"), "{row}");
+    }
+    // Nothing is claimed of what is biased by choice.
+    let clamped = own("clamped.toml", "factor = 0.5, when_exceeded = \"clamp\"");
+    let text = succeeds(&["check", &clamped]);
+    assert!(text.contains("the majorant is clamped") && text.contains("0 of 0 agree"), "{text}");
+    assert!(fails(&["check", "no-such-scene"], 1).contains("check --list"));
+}
+
+#[test]
 fn without_a_display_the_window_names_the_headless_command() {
     let message = fails(&[], 3);
     assert_eq!(message.trim().lines().count(), 1, "{message}");

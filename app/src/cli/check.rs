@@ -160,3 +160,41 @@ fn list() -> Result<(), Failure> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(verdict: Verdict) -> Row {
+        Row {
+            scene: "furnace/thin".into(),
+            estimator: "nee",
+            mode: Mode::Rgb,
+            measured: 1.1,
+            error: 0.01,
+            expected: 1.0,
+            z: 10.0,
+            worst_z: 10.0,
+            critical_z: 5.0,
+            detectable: 0.02,
+            paths: 1000,
+            verdict,
+        }
+    }
+
+    #[test]
+    fn what_differs_is_an_error_that_names_it() {
+        let differs = Verdict::Differs { from: vec!["the answer".into()] };
+        assert!(line(&row(differs.clone()), 20).ends_with("DIFFERS from the answer"));
+        let report = Report { rows: vec![row(Verdict::Agrees), row(differs)], ..Report::default() };
+        for json in [false, true] {
+            let Err(Failure::Message(message)) = finish(&report, json) else {
+                panic!("it should have failed")
+            };
+            assert!(message.contains("furnace/thin nee"), "{message}");
+        }
+        let noisy = Report { rows: vec![row(Verdict::Undecided)], ..Report::default() };
+        assert!(finish(&noisy, false).is_ok());
+        assert!(line(&row(Verdict::NotFinite { x: 3, y: 4, sample: 5 }), 20).contains("(3, 4), sample 5"));
+    }
+}

@@ -81,7 +81,8 @@ impl Check {
             let scene = case.scene()?;
             let estimators = case.estimators();
             if estimators.is_empty() {
-                report.notes.push(format!("{}: no estimator is unbiased for it.", case.name));
+                let why = case.registry.iter().find_map(|e| e.bias(&case.doc)).unwrap_or("there are none");
+                report.notes.push(format!("{}: no estimator is unbiased for it: {why}.", case.name));
             }
             let mut images = Vec::new();
             for entry in &estimators {
