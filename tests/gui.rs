@@ -5,6 +5,8 @@
 mod files;
 #[path = "gui/harness.rs"]
 mod harness;
+#[path = "gui/self_check.rs"]
+mod self_check;
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, vec2};

@@ -78,6 +78,14 @@ pub enum Command {
     ToggleShortcuts,
     /// Lobes with a logarithmic or linear radius.
     ToggleLogLobe,
+    /// Shows the self-check.
+    OpenSelfCheck,
+    /// Hides it; a check that runs is cancelled.
+    CloseSelfCheck,
+    /// Starts the check that is chosen.
+    StartSelfCheck,
+    /// Ends the check that runs.
+    CancelSelfCheck,
     /// Switches the theme.
     Theme(ThemePreference),
     /// Lists the grids of a file as the document names it.

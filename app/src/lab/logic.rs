@@ -34,6 +34,7 @@ impl LabApp {
             }
             self.shown = Some(picture.snapshot);
         }
+        self.self_check.poll();
         while let Some(outcome) = self.tasks.take() {
             self.finish(outcome);
         }
@@ -152,6 +153,16 @@ impl LabApp {
             Command::ToggleSceneColumn => self.settings.scene_column ^= true,
             Command::ToggleMethodColumn => self.settings.method_column ^= true,
             Command::ToggleShortcuts => self.shortcuts_open ^= true,
+            Command::OpenSelfCheck => self.self_check.open = true,
+            Command::CloseSelfCheck => {
+                self.self_check.cancel();
+                self.self_check.open = false;
+            }
+            Command::StartSelfCheck => {
+                let (name, doc, repaint) = (self.name(), self.document.resolved(), self.repaint.clone());
+                self.self_check.start(&name, &doc, move || repaint.request_repaint());
+            }
+            Command::CancelSelfCheck => self.self_check.cancel(),
             Command::ToggleLogLobe => self.settings.log_lobe ^= true,
             Command::Theme(theme) => self.settings.theme = theme,
             Command::ListGrids(file) => self.list_grids(file),

@@ -21,6 +21,7 @@ impl LabApp {
             ui.menu_button("View", |ui| self.view_ui(ui, commands));
             ui.menu_button("Help", |ui| {
                 item(ui, "Keys and gestures", Command::ToggleShortcuts, commands);
+                item(ui, "Self-check…", Command::OpenSelfCheck, commands);
             });
             self.title_ui(ui);
         });

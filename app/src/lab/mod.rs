@@ -7,6 +7,7 @@
 //! | `files.rs` | the commands that touch files |
 //! | `ui.rs` | lays the window out; changes nothing but the draft that it hands back |
 //! | `tasks.rs` | work that would make a frame wait |
+//! | `self_check/` | are the estimators true? |
 
 mod backend;
 mod columns;
@@ -19,6 +20,7 @@ mod logic;
 mod menu;
 mod messages;
 mod run;
+pub mod self_check;
 mod shortcuts;
 pub mod stats;
 mod status_bar;
@@ -42,6 +44,7 @@ use majorant_core::film::Snapshot;
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
 use majorant_core::session::{Session, ViewId, ViewState};
+use self_check::SelfCheck;
 use std::sync::Arc;
 use std::time::Duration;
 use tasks::Tasks;
@@ -68,6 +71,7 @@ pub struct LabApp {
     messages: Messages,
     dialog: Option<Dialog>,
     shortcuts_open: bool,
+    self_check: SelfCheck,
     tasks: Tasks,
     grids: GridLists,
     screenshot: Option<Screenshot>,
@@ -80,6 +84,8 @@ pub struct LabApp {
     quitting: bool,
     window_title: String,
     ui_seconds: f32,
+    /// Asks for a frame from other threads.
+    repaint: egui::Context,
 }
 
 impl LabApp {
@@ -126,6 +132,7 @@ impl LabApp {
             messages: Messages::default(),
             dialog: None,
             shortcuts_open: false,
+            self_check: SelfCheck::default(),
             tasks: Tasks::new(move || repaint.request_repaint()),
             grids: GridLists::default(),
             screenshot: options.screenshot.clone().map(|path| Screenshot::new(path, options.after_seconds)),
@@ -135,6 +142,7 @@ impl LabApp {
             quitting: false,
             window_title: String::new(),
             ui_seconds: 0.0,
+            repaint: ctx.clone(),
         };
         app.open_first(options.open.as_ref());
         Ok(app)
@@ -170,6 +178,12 @@ impl LabApp {
     #[must_use]
     pub fn state(&self) -> &ViewState {
         &self.state
+    }
+
+    /// The self-check.
+    #[must_use]
+    pub fn self_check(&self) -> &SelfCheck {
+        &self.self_check
     }
 
     /// What the window has to say.

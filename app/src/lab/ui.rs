@@ -4,6 +4,7 @@ use super::dialogs::dialog_ui;
 use super::files::FileKind;
 use super::help::help_ui;
 use super::messages::line_ui;
+use super::self_check::self_check_ui;
 use super::{Command, LabApp, shortcuts};
 use crate::panels::Column;
 use crate::theme::Palette;
@@ -49,6 +50,7 @@ impl LabApp {
         if self.shortcuts_open {
             help_ui(ui.ctx(), &mut commands);
         }
+        self_check_ui(ui.ctx(), &mut self.self_check, self.document.doc(), &mut commands);
         drop_overlay(ui.ctx());
         // Commands of this frame were meant for the document as it was drawn, edits included.
         if draft != *self.document.doc() {
@@ -60,7 +62,7 @@ impl LabApp {
     /// Keys of this frame; what is open over the window keeps the others from it.
     fn keys(&self, ctx: &Context) -> Vec<Command> {
         let mut commands = shortcuts::pressed(ctx);
-        if self.dialog.is_some() || self.shortcuts_open {
+        if self.dialog.is_some() || self.shortcuts_open || self.self_check.open {
             commands.retain(|command| self.shortcuts_open && *command == Command::ToggleShortcuts);
         }
         commands

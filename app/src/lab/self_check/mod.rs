@@ -1,0 +1,281 @@
+//! *Help ▸ Self-check*: the check that the command line makes, in the window.
+//!
+//! `mod.rs` is its state: what is asked, the thread that works on it, what has come of it so far.
+//! `dialog.rs` draws it, `table.rs` its table.
+
+mod dialog;
+mod table;
+
+pub(super) use dialog::self_check_ui;
+
+use majorant_core::check::{self, Case, Check, CheckError, Effort, Row, Verdict};
+use majorant_core::io::Library;
+use majorant_core::scene::SceneDoc;
+use majorant_core::transport::Wanted;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+/// What is checked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Subject {
+    /// The cases that are part of the program.
+    #[default]
+    BuiltIn,
+    /// The scene as it is edited.
+    ThisScene,
+}
+
+/// How the last check ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// With all its rows, after some seconds.
+    Finished(f64),
+    /// By the user.
+    Cancelled,
+    /// With an error.
+    Failed(String),
+}
+
+/// What the thread tells.
+enum News {
+    At { done: usize, total: usize, what: String },
+    Rows(Vec<Row>),
+    Notes(Vec<String>),
+    Ended(Ending),
+}
+
+/// A check that runs; dropping it cancels it and waits for its thread, which asks several times a millisecond.
+struct Running {
+    generation: Arc<AtomicU64>,
+    news: Receiver<News>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.generation.store(1, Ordering::Relaxed);
+        if let Some(thread) = self.thread.take() {
+            // A panic in it has been reported as the end of its news.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// The self-check of the window.
+#[derive(Default)]
+pub struct SelfCheck {
+    /// Whether it is shown.
+    pub open: bool,
+    subject: Subject,
+    deep: bool,
+    only_failures: bool,
+    running: Option<Running>,
+    done: usize,
+    total: usize,
+    at: String,
+    rows: Vec<Row>,
+    notes: Vec<String>,
+    ending: Option<Ending>,
+}
+
+/// Seconds for a scene whose cost nobody knows.
+const SECONDS: f64 = 45.0;
+const DEEP_SECONDS: f64 = 600.0;
+
+impl SelfCheck {
+    /// The lines of the table so far.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// How the last check ended, once it has.
+    #[must_use]
+    pub fn ending(&self) -> Option<&Ending> {
+        self.ending.as_ref()
+    }
+
+    /// Whether a check runs.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Starts over; `wake` is called whenever there is news.
+    pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + 'static) {
+        *self = Self {
+            open: true,
+            subject: self.subject,
+            deep: self.deep,
+            only_failures: self.only_failures,
+            ..Self::default()
+        };
+        let own = (self.subject == Subject::ThisScene).then(|| (name.to_owned(), doc.clone()));
+        let (deep, generation) = (self.deep, Arc::new(AtomicU64::new(0)));
+        let (sender, news) = channel();
+        let theirs = Arc::clone(&generation);
+        let work = move || work(own, deep, Wanted::new(&theirs, 0), &sender, &wake);
+        match std::thread::Builder::new().name("majorant-self-check".into()).spawn(work) {
+            Ok(thread) => self.running = Some(Running { generation, news, thread: Some(thread) }),
+            Err(error) => self.ending = Some(Ending::Failed(format!("no thread could be started: {error}"))),
+        }
+    }
+
+    /// Ends the check that runs; its rows stay.
+    pub fn cancel(&mut self) {
+        if self.running.take().is_some() {
+            self.ending = Some(Ending::Cancelled);
+        }
+    }
+
+    /// Takes note of what the thread has told.
+    pub fn poll(&mut self) {
+        let Some(running) = &self.running else { return };
+        let mut ended = None;
+        loop {
+            match running.news.try_recv() {
+                Ok(News::At { done, total, what }) => (self.done, self.total, self.at) = (done, total, what),
+                Ok(News::Rows(rows)) => self.rows.extend(rows),
+                Ok(News::Notes(notes)) => self.notes = notes,
+                Ok(News::Ended(ending)) => ended = Some(ending),
+                Err(std::sync::mpsc::TryRecvError::Empty) => break,
+                Err(std::sync::mpsc::TryRecvError::Disconnected) => {
+                    let lost = || Ending::Failed("it stopped on an internal error; run it again".into());
+                    ended = Some(ended.unwrap_or_else(lost));
+                    break;
+                }
+            }
+        }
+        if ended.is_some() {
+            (self.ending, self.running) = (ended, None);
+        }
+    }
+
+    /// Rows in all, that agree, and that differ or are not finite.
+    fn counts(&self) -> (usize, usize, usize) {
+        let agree = self.rows.iter().filter(|row| row.verdict == Verdict::Agrees).count();
+        let wrong = self.rows.iter().filter(|row| !row.passes()).count();
+        (self.rows.len(), agree, wrong)
+    }
+
+    /// The table as comma-separated values.
+    fn csv(&self) -> String {
+        let mut text =
+            "scene,estimator,mode,measured,error,expected,z,worst_z,critical_z,detectable,paths,verdict\n"
+                .to_owned();
+        for r in &self.rows {
+            let mode = table::mode(r);
+            text += &format!(
+                "\"{}\",{},{mode},{},{},{},{},{},{},{},{},\"{}\"\n",
+                r.scene.replace('"', "\"\""),
+                r.estimator,
+                r.measured,
+                r.error,
+                r.expected,
+                r.z,
+                r.worst_z,
+                r.critical_z,
+                r.detectable,
+                r.paths,
+                table::verdict(r)
+            );
+        }
+        text
+    }
+}
+
+fn plan(own: Option<(String, SceneDoc)>, deep: bool) -> Result<Check, CheckError> {
+    let effort = if deep { Effort::DEEP } else { Effort::QUICK };
+    let Some((name, doc)) = own else { return Ok(Check { cases: check::built_in(deep)?, effort }) };
+    let case: Case = check::own_scene(name, &doc, Library::default());
+    let seconds = if deep { DEEP_SECONDS } else { SECONDS };
+    let effort = effort.within(seconds, case.estimators().len());
+    Ok(Check { cases: vec![case], effort })
+}
+
+fn work(
+    own: Option<(String, SceneDoc)>,
+    deep: bool,
+    wanted: Wanted<'_>,
+    news: &Sender<News>,
+    wake: &dyn Fn(),
+) {
+    let tell = |what: News| {
+        // The window may be gone by now; then nobody wants to know.
+        let _ = news.send(what);
+        wake();
+    };
+    let result = plan(own, deep).and_then(|check| {
+        check.run(wanted, |p| {
+            let what = format!("{}  ·  {}", p.scene, p.estimator);
+            tell(News::At { done: p.done, total: p.total, what });
+            if !p.rows.is_empty() {
+                tell(News::Rows(p.rows.to_vec()));
+            }
+        })
+    });
+    tell(match result {
+        Ok(Some(report)) => {
+            tell(News::Notes(report.notes));
+            News::Ended(Ending::Finished(report.seconds))
+        }
+        Ok(None) => News::Ended(Ending::Cancelled),
+        Err(error) => News::Ended(Ending::Failed(error.to_string())),
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn finished(check: &mut SelfCheck) -> &Ending {
+        while check.is_running() {
+            std::thread::sleep(Duration::from_millis(2));
+            check.poll();
+        }
+        check.ending().expect("it has ended")
+    }
+
+    fn scene(toml: &str) -> SceneDoc {
+        majorant_core::io::scene_file::parse(toml, "test").expect("a scene")
+    }
+
+    #[test]
+    fn a_scene_of_ones_own_ends_in_rows() {
+        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
+        let doc = scene(
+            "majorant = 1\nmedium = { extinction = 1.0 }\nlights = [{ kind = \"environment\" }]\n\
+             film = { width = 8, height = 8 }",
+        );
+        check.start("mine", &doc, || {});
+        assert!(matches!(finished(&mut check), Ending::Finished(_)));
+        assert_eq!(check.counts(), (4, 4, 0));
+        assert_eq!(check.csv().lines().count(), 5);
+        assert!(check.csv().contains("\"mine\",nee,spectral,"));
+    }
+
+    #[test]
+    fn a_file_that_is_missing_becomes_a_message() {
+        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
+        let doc = scene("majorant = 1\n[medium]\ndensity = { kind = \"grid\", file = \"/none.vdb\" }");
+        check.start("mine", &doc, || {});
+        let Ending::Failed(message) = finished(&mut check) else { panic!("it should have failed") };
+        assert!(message.contains("none.vdb"), "{message}");
+    }
+
+    #[test]
+    fn cancelling_keeps_the_rows_and_ends_the_thread() {
+        let mut check = SelfCheck { deep: true, ..SelfCheck::default() };
+        check.start("", &SceneDoc::default(), || {});
+        while check.rows().is_empty() {
+            std::thread::sleep(Duration::from_millis(2));
+            check.poll();
+        }
+        check.cancel();
+        assert!(!check.is_running() && !check.rows().is_empty());
+        assert_eq!(check.ending(), Some(&Ending::Cancelled));
+    }
+}

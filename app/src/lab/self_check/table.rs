@@ -1,0 +1,137 @@
+//! The table of scene × estimator.
+
+use crate::theme::Palette;
+use egui::{Align, Label, Layout, RichText, TextWrapMode, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+use majorant_core::check::{Row, Verdict};
+use majorant_core::scene::Mode;
+
+const ROW_HEIGHT: f32 = 21.0;
+
+/// Headings, with what the numbers mean.
+const HEADINGS: [(&str, &str); 8] = [
+    ("Scene", "The case. Its family's file has the derivation of the answer."),
+    ("Estimator", "Every estimator that is unbiased for the scene is held against the answer."),
+    ("Mode", "Spectral: wavelengths. RGB: three fixed components."),
+    ("Measured", "The image's mean over pixels and channels, and its standard error."),
+    ("Expected", "What it should be. Where nobody knows: the mean of the other estimators."),
+    ("z", "Measured minus expected, in standard errors of the difference. Within ±2, 19 times of 20."),
+    (
+        "Worst |z|",
+        "The largest |z| of any block of pixels and channel, and what chance exceeds anywhere in the \
+         whole table once in a thousand tables.",
+    ),
+    ("Sees", "A bias of the image's mean of this size would have been found with 95 % probability."),
+];
+
+pub(super) fn mode(row: &Row) -> &'static str {
+    if row.mode == Mode::Rgb { "RGB" } else { "spectral" }
+}
+
+/// The verdict in words.
+pub(super) fn verdict(row: &Row) -> String {
+    match &row.verdict {
+        Verdict::Agrees => "agrees".into(),
+        Verdict::Undecided => "too noisy to tell".into(),
+        Verdict::Differs { from } => format!("differs from {}", from.join(", ")),
+        Verdict::NotFinite { x, y, sample } => format!("not finite: pixel ({x}, {y}), sample {sample}"),
+    }
+}
+
+/// Shows rows, what is wrong first.
+pub(super) fn table_ui(ui: &mut Ui, rows: &[Row], only_failures: bool) {
+    let mut shown: Vec<&Row> = rows.iter().filter(|row| !(only_failures && row.passes())).collect();
+    shown.sort_by_key(|row| row.passes());
+    let numbers = Layout::right_to_left(Align::Center);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let table = TableBuilder::new(ui)
+        .striped(true)
+        .auto_shrink([false, false])
+        .cell_layout(Layout::left_to_right(Align::Center))
+        .column(Column::exact(214.0).clip(true))
+        .column(Column::exact(92.0))
+        .column(Column::exact(60.0))
+        .column(Column::exact(128.0))
+        .column(Column::exact(66.0))
+        .column(Column::exact(46.0))
+        .column(Column::exact(84.0))
+        .column(Column::exact(54.0))
+        .column(Column::remainder().clip(true));
+    let header = table.header(24.0, |mut header| {
+        for (index, (title, meaning)) in HEADINGS.iter().enumerate() {
+            header.col(|ui| {
+                let show = |ui: &mut Ui| {
+                    let text = RichText::new(*title).small().color(Palette::get(ui).weak);
+                    ui.add(Label::new(text).selectable(false)).on_hover_text(*meaning);
+                };
+                if index < 3 { show(ui) } else { ui.with_layout(numbers, show).inner }
+            });
+        }
+        header.col(|ui| {
+            ui.add_space(8.0);
+            let text = RichText::new("Verdict").small().color(Palette::get(ui).weak);
+            ui.add(Label::new(text).selectable(false));
+        });
+    });
+    header.body(|body| {
+        body.rows(ROW_HEIGHT, shown.len(), |mut line| {
+            if let Some(row) = shown.get(line.index()) {
+                row_ui(&mut line, row);
+            }
+        });
+    });
+}
+
+fn row_ui(line: &mut TableRow<'_, '_>, row: &Row) {
+    let text = |line: &mut TableRow<'_, '_>, text: &str| {
+        line.col(|ui| {
+            ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
+            ui.add(Label::new(text).selectable(false));
+        });
+    };
+    text(line, &row.scene);
+    text(line, row.estimator);
+    text(line, mode(row));
+    let number = |line: &mut TableRow<'_, '_>, text: String| {
+        line.col(|ui| {
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.add(Label::new(RichText::new(text).monospace()).selectable(false));
+            });
+        });
+    };
+    number(line, format!("{} ± {}", four_digits(row.measured), short(row.error)));
+    number(line, four_digits(row.expected));
+    number(line, format!("{:+.1}", row.z));
+    number(line, format!("{:.1} of {:.1}", row.worst_z, row.critical_z));
+    let sees = if row.detectable < 9.99 { format!("{:.1} %", 100.0 * row.detectable) } else { "–".into() };
+    number(line, sees);
+    line.col(|ui| {
+        ui.add_space(8.0);
+        let palette = Palette::get(ui);
+        let (mark, colour) = match row.verdict {
+            Verdict::Agrees => ("=", palette.good),
+            Verdict::Undecided => ("?", palette.warning),
+            Verdict::Differs { .. } | Verdict::NotFinite { .. } => ("≠", palette.error),
+        };
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
+        let text = verdict(row);
+        let label = Label::new(RichText::new(format!("{mark}  {text}")).color(colour)).selectable(false);
+        ui.add(label).on_hover_text(format!("{text}, with {} paths", row.paths));
+    });
+}
+
+/// Enough digits to compare by, whatever the magnitude.
+fn four_digits(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude >= 100.0 {
+        format!("{value:.1}")
+    } else if magnitude >= 10.0 {
+        format!("{value:.2}")
+    } else {
+        format!("{value:.4}")
+    }
+}
+
+fn short(error: f64) -> String {
+    if error >= 0.1 { format!("{error:.2}") } else { format!("{error:.4}") }
+}
