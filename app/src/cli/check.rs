@@ -1,7 +1,7 @@
 //! `majorant check`: is every estimator true?
 
 use super::{Failure, print_line, progress, source};
-use majorant_core::check::{self, Answer, Case, Check, Effort, FAMILIES, Report, Row, Verdict};
+use majorant_core::check::{self, Answer, Case, Check, Effort, FAMILIES, Report, Row};
 use majorant_core::io::embedded;
 use majorant_core::scene::Mode;
 use majorant_core::transport::Wanted;
@@ -37,10 +37,6 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with_all = ["scenes", "deep", "json"])]
     list: bool,
 }
-
-/// Seconds for scenes whose cost nobody knows.
-const SECONDS: f64 = 45.0;
-const DEEP_SECONDS: f64 = 600.0;
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
@@ -117,8 +113,7 @@ fn plan(arguments: &Arguments) -> Result<Check, Failure> {
             cases.extend(built_in);
         }
     }
-    let seconds = if arguments.deep { DEEP_SECONDS } else { SECONDS };
-    let effort = if own > 0 { effort.within(seconds, own) } else { effort };
+    let effort = if own > 0 { Effort::own_scenes(arguments.deep, own) } else { effort };
     Ok(Check { cases, effort })
 }
 
@@ -130,17 +125,20 @@ fn heading(width: usize) -> String {
 }
 
 fn line(row: &Row, width: usize) -> String {
-    let verdict = match &row.verdict {
-        Verdict::Agrees => "agrees".to_owned(),
-        Verdict::Undecided => "too noisy to tell".to_owned(),
-        Verdict::Differs { from } => format!("DIFFERS from {}", from.join(", ")),
-        Verdict::NotFinite { x, y, sample } => format!("NOT FINITE in pixel ({x}, {y}), sample {sample}"),
-    };
+    let mark = if row.passes() { ' ' } else { '!' };
     let mode = if row.mode == Mode::Rgb { "rgb" } else { "spectral" };
     let sees = if row.detectable < 10.0 { format!("{:.1} %", 100.0 * row.detectable) } else { "–".into() };
     format!(
-        "{:width$}  {:13} {mode:8}  {:>10.5} ± {:<8.5}  {:>10.5}  {:>6.2}  {:>5.2} of {:<4.2}  {sees:>7}  {verdict}",
-        row.scene, row.estimator, row.measured, row.error, row.expected, row.z, row.worst_z, row.critical_z
+        "{:width$}  {:13} {mode:8}  {:>10.5} ± {:<8.5}  {:>10.5}  {:>6.2}  {:>5.2} of {:<4.2}  {sees:>7} {mark}{}",
+        row.scene,
+        row.estimator,
+        row.measured,
+        row.error,
+        row.expected,
+        row.z,
+        row.worst_z,
+        row.critical_z,
+        row.verdict
     )
 }
 
@@ -164,6 +162,7 @@ fn list() -> Result<(), Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use majorant_core::check::Verdict;
 
     fn row(verdict: Verdict) -> Row {
         Row {
@@ -185,7 +184,7 @@ mod tests {
     #[test]
     fn what_differs_is_an_error_that_names_it() {
         let differs = Verdict::Differs { from: vec!["the answer".into()] };
-        assert!(line(&row(differs.clone()), 20).ends_with("DIFFERS from the answer"));
+        assert!(line(&row(differs.clone()), 20).ends_with("!differs from the answer"));
         let report = Report { rows: vec![row(Verdict::Agrees), row(differs)], ..Report::default() };
         for json in [false, true] {
             let Err(Failure::Message(message)) = finish(&report, json) else {

@@ -3,6 +3,7 @@
 use crate::film::NonFinite;
 use crate::scene::Mode;
 use serde::Serialize;
+use std::fmt;
 
 /// How one estimator fares on one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -26,6 +27,17 @@ pub enum Verdict {
         /// Sample number within the pixel.
         sample: u64,
     },
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Agrees => f.write_str("agrees"),
+            Self::Undecided => f.write_str("too noisy to tell"),
+            Self::Differs { from } => write!(f, "differs from {}", from.join(", ")),
+            Self::NotFinite { x, y, sample } => write!(f, "not finite in pixel ({x}, {y}), sample {sample}"),
+        }
+    }
 }
 
 impl From<NonFinite> for Verdict {

@@ -26,10 +26,12 @@ impl Effort {
     /// Finds a bias of 1 %.
     pub const DEEP: Self = Self { detect: 0.01, max_paths: 400_000_000, seconds: None };
 
-    /// The same for scenes whose cost nobody knows, in about `seconds` for `images` images.
+    /// For people's own scenes, whose cost nobody knows: at most 45 seconds for `images` images of them, or
+    /// ten minutes for a deep look.
     #[must_use]
-    pub fn within(self, seconds: f64, images: usize) -> Self {
-        Self { seconds: Some(seconds / images.max(1) as f64), ..self }
+    pub fn own_scenes(deep: bool, images: usize) -> Self {
+        let (effort, seconds) = if deep { (Self::DEEP, 600.0) } else { (Self::QUICK, 45.0) };
+        Self { seconds: Some(seconds / images.max(1) as f64), ..effort }
     }
 }
 

@@ -111,3 +111,62 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let radiance = E::estimate(&world, ray, &mut trace);
     PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::find;
+    use crate::io::{Library, scene_file};
+    use crate::scene::build;
+
+    /// Six by four pixels whose right half looks at a light.
+    fn half_lit() -> (Scene, Settings) {
+        let doc = scene_file::parse(
+            "majorant = 1
+            [film]
+            width = 6
+            height = 4
+            [camera]
+            origin = [0.0, 0.0, 5.0]
+            [medium]
+            extinction = 0.0
+            [estimator]
+            mode = \"rgb\"
+            [[lights]]
+            kind = \"rectangle\"
+            center = [50.0, 0.0, -1.0]
+            target = [50.0, 0.0, 1.0]
+            size = [100.0, 100.0]",
+            "half lit",
+        );
+        let doc = doc.unwrap();
+        (build(&doc, &mut Library::default()).unwrap(), Settings::new(&doc.estimator, 0))
+    }
+
+    #[test]
+    fn a_path_starts_within_its_pixel() {
+        let (scene, settings) = half_lit();
+        for (x, y, sample) in (0..6).flat_map(|x| (0..4).flat_map(move |y| (0..8).map(move |s| (x, y, s)))) {
+            let at = PathIndex { x, y, sample };
+            let kernel = find("spectral-mis").unwrap().kernel;
+            let seen = kernel(&scene, &settings, at, Wanted::ALWAYS).rgb.element_sum();
+            assert_eq!(seen > 0.0, x >= 3, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn every_pixel_has_random_numbers_of_its_own() {
+        let (scene, settings) = half_lit();
+        let kernel = find("independent").unwrap().kernel;
+        // Which channel each of 32 paths carries tells the streams apart.
+        let channels = |x, y| -> Vec<Vec3> {
+            (0..32)
+                .map(|sample| kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS).rgb)
+                .collect()
+        };
+        let pixels: Vec<_> = (3..6).flat_map(|x| (0..4).map(move |y| channels(x, y))).collect();
+        for (i, a) in pixels.iter().enumerate() {
+            assert!(pixels[..i].iter().all(|b| a != b), "pixel {i} repeats another");
+        }
+    }
+}

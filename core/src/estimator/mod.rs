@@ -82,3 +82,40 @@ pub trait Estimator {
         trace: &mut Trace<'_>,
     ) -> Sampled<N>;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bias_is_named_where_there_is_one_and_nowhere_else() {
+        let with = |factor: f32, when_exceeded: WhenExceeded| {
+            let mut doc = SceneDoc::default();
+            doc.medium.majorant.factor = factor;
+            doc.medium.majorant.when_exceeded = when_exceeded;
+            doc
+        };
+        for entry in REGISTRY {
+            let clamped = entry.bias(&with(0.5, WhenExceeded::Clamp));
+            assert!(clamped.is_some_and(|why| why.contains("clamped")), "{clamped:?}");
+            // A majorant that bounds is never exceeded.
+            assert_eq!(entry.bias(&with(1.0, WhenExceeded::Clamp)), None);
+            assert_eq!(entry.bias(&with(0.5, WhenExceeded::Weighted)), None);
+        }
+    }
+
+    #[test]
+    fn estimators_are_found_by_their_ids_and_no_others() {
+        for entry in REGISTRY {
+            assert_eq!(find(entry.id).map(|e| e.name), Some(entry.name));
+            let mut doc = SceneDoc::default();
+            doc.estimator.id = entry.id.to_owned();
+            assert_eq!(validate(&doc), []);
+        }
+        let mut doc = SceneDoc::default();
+        doc.estimator.id = "magic".into();
+        doc.medium.scale = -1.0;
+        let paths: Vec<_> = validate(&doc).into_iter().map(|p| p.path).collect();
+        assert_eq!(paths, ["medium.scale", "estimator.id"]);
+    }
+}

@@ -80,10 +80,6 @@ pub struct SelfCheck {
     ending: Option<Ending>,
 }
 
-/// Seconds for a scene whose cost nobody knows.
-const SECONDS: f64 = 45.0;
-const DEEP_SECONDS: f64 = 600.0;
-
 impl SelfCheck {
     /// The lines of the table so far.
     #[must_use]
@@ -179,7 +175,7 @@ impl SelfCheck {
                 r.critical_z,
                 r.detectable,
                 r.paths,
-                table::verdict(r)
+                r.verdict
             );
         }
         text
@@ -187,11 +183,12 @@ impl SelfCheck {
 }
 
 fn plan(own: Option<(String, SceneDoc)>, deep: bool) -> Result<Check, CheckError> {
-    let effort = if deep { Effort::DEEP } else { Effort::QUICK };
-    let Some((name, doc)) = own else { return Ok(Check { cases: check::built_in(deep)?, effort }) };
+    let Some((name, doc)) = own else {
+        let effort = if deep { Effort::DEEP } else { Effort::QUICK };
+        return Ok(Check { cases: check::built_in(deep)?, effort });
+    };
     let case: Case = check::own_scene(name, &doc, Library::default());
-    let seconds = if deep { DEEP_SECONDS } else { SECONDS };
-    let effort = effort.within(seconds, case.estimators().len());
+    let effort = Effort::own_scenes(deep, case.estimators().len());
     Ok(Check { cases: vec![case], effort })
 }
 

@@ -28,16 +28,6 @@ pub(super) fn mode(row: &Row) -> &'static str {
     if row.mode == Mode::Rgb { "RGB" } else { "spectral" }
 }
 
-/// The verdict in words.
-pub(super) fn verdict(row: &Row) -> String {
-    match &row.verdict {
-        Verdict::Agrees => "agrees".into(),
-        Verdict::Undecided => "too noisy to tell".into(),
-        Verdict::Differs { from } => format!("differs from {}", from.join(", ")),
-        Verdict::NotFinite { x, y, sample } => format!("not finite: pixel ({x}, {y}), sample {sample}"),
-    }
-}
-
 /// Shows rows, what is wrong first.
 pub(super) fn table_ui(ui: &mut Ui, rows: &[Row], only_failures: bool) {
     let mut shown: Vec<&Row> = rows.iter().filter(|row| !(only_failures && row.passes())).collect();
@@ -114,7 +104,7 @@ fn row_ui(line: &mut TableRow<'_, '_>, row: &Row) {
             Verdict::Differs { .. } | Verdict::NotFinite { .. } => ("≠", palette.error),
         };
         ui.style_mut().wrap_mode = Some(TextWrapMode::Truncate);
-        let text = verdict(row);
+        let text = row.verdict.to_string();
         let label = Label::new(RichText::new(format!("{mark}  {text}")).color(colour)).selectable(false);
         ui.add(label).on_hover_text(format!("{text}, with {} paths", row.paths));
     });

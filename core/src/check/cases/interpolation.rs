@@ -11,6 +11,7 @@ use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::ASIDE;
 use crate::io::Library;
 use crate::io::volume::{self, Limits};
+use crate::scene::{DensityDoc, GridRef};
 use glam::DVec3;
 
 pub(super) const FAMILY: Family = Family {
@@ -159,13 +160,20 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     );
 
     // An OpenVDB file: the box reaches one voxel beyond the outermost values on every side.
-    let bytes = crate::io::embedded::volume("embedded:cloud.vdb").unwrap_or_default();
-    if let Ok(voxels) = volume::read_volume_bytes(bytes, "cloud.vdb", None, &Limits::default()) {
+    let bytes: &'static [u8] = include_bytes!("../../../../tests/volumes/tiny_instance.vdb");
+    if let Ok(voxels) = volume::read_volume_bytes(bytes, "tiny.vdb", Some("density"), &Limits::default()) {
         let n = DVec3::from_array(voxels.size.map(|n| n as f64 + 1.0));
         let half = n * (0.6 / n.max_element());
         let lattice = Lattice3 { size: voxels.size, values: voxels.values };
         let rays = columns(|p| lattice.at((p / (2.0 * half) + 0.5) * n - 1.0, fading), half);
-        cases.push(case("vdb", "embedded:cloud.vdb", sigma_toml, "rgb", 1.2)?.answered(rgb(&rays, sigma)));
+        let case = case("vdb", "tiny.vdb", sigma_toml, "rgb", 1.2)?
+            .with_files(Library::default().with_volume("tiny.vdb", bytes))
+            .answered(rgb(&rays, sigma));
+        // The file has two grids.
+        cases.push(case.varied("interpolation/vdb", |doc| {
+            doc.medium.density =
+                DensityDoc::Grid(GridRef { file: "tiny.vdb".into(), grid: Some("density".into()) });
+        }));
     }
     Ok(cases)
 }
