@@ -140,6 +140,31 @@ fn tiny_sun() -> Result<Case, CheckError> {
     })
 }
 
+/// Diffuse ground under a lamp, behind an absorbing cube: e^(−σ) · albedo/π · ∫ L cos θ dω, the lamp seen from
+/// beside the cube.
+fn diffuse_ground() -> Result<Case, CheckError> {
+    let (ground, center, radius) = (DVec3::new(0.0, 0.0, -2.0), DVec3::new(2.2, 0.3, -0.9), 0.8);
+    let to = center - ground;
+    let irradiance =
+        truth::over_cap(to.normalize(), (radius / to.length()).asin(), 60, |omega| 4.0 * omega.z);
+    let albedo = [0.3, 0.6, 0.9];
+    let colour = albedo.map(|a| (-1.0f64).exp() * a / PI * irradiance);
+    let rest = "[medium]
+        extinction = 1.0
+        albedo = 0.0
+        [[lights]]
+        kind = \"sphere\"
+        center = [2.2, 0.3, -0.9]
+        radius = 0.8
+        radiance = 4.0
+        [[objects]]
+        kind = \"ground\"
+        point = [0.0, 0.0, -2.0]
+        normal = [0.0, 0.0, -1.0]
+        albedo = { rgb = [0.3, 0.6, 0.9] }";
+    case("diffuse-ground", rest, Answer::uniform(colour, Layout::WHOLE))
+}
+
 /// A lamp in the medium that it lights: the last stretch to it counts.
 fn lamp_inside() -> Result<Case, CheckError> {
     let center = DVec3::new(0.28, 0.0, -0.1);
@@ -174,5 +199,5 @@ fn lamp_inside() -> Result<Case, CheckError> {
 }
 
 fn cases() -> Result<Vec<Case>, CheckError> {
-    Ok(vec![two_powers()?, occluder()?, tiny_sun()?, lamp_inside()?])
+    Ok(vec![two_powers()?, occluder()?, tiny_sun()?, lamp_inside()?, diffuse_ground()?])
 }
