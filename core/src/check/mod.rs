@@ -29,7 +29,7 @@ pub mod stats;
 mod truth;
 
 pub use answer::{Answer, Value};
-pub use batches::{Batches, Layout, Plan};
+pub use batches::{BATCHES, Batches, Layout, Plan};
 pub use case::{Case, Family};
 pub use cases::{FAMILIES, built_in, named};
 pub use error::CheckError;

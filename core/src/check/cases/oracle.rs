@@ -49,8 +49,8 @@ macro_rules! oracle {
 static ORACLES: &[Oracle] = &[
     oracle!("S1", "reference.npy", 8, None),
     oracle!("S1f", "reference.npy", 8, None),
-    oracle!("S2", "reference.npy", 2, Some(6_000_000)),
-    oracle!("S3", "reference.npy", 2, Some(6_000_000)),
+    oracle!("S2", "reference.npy", 2, Some(3_000_000)),
+    oracle!("S3", "reference.npy", 2, Some(3_000_000)),
     oracle!("S4", "reference.npy", 8, None),
     oracle!("S5", "reference.npy", 8, None),
     oracle!("S6", "reference.npy", 8, None),
