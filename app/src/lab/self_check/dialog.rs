@@ -1,11 +1,11 @@
 //! The self-check over the window.
 
-use super::table::table_ui;
+use super::table::{TABLE_WIDTH, table_ui};
 use super::{Ending, SelfCheck, Subject};
 use crate::lab::Command;
 use crate::theme::{Palette, dialog_frame};
 use crate::widgets::{callout, segmented};
-use egui::{Align, Button, Context, Grid, Id, Layout, Modal, ProgressBar, RichText, Ui, vec2};
+use egui::{Align, Button, Context, Grid, Id, Layout, Modal, ProgressBar, RichText, ScrollArea, Ui, vec2};
 use majorant_core::check::FAMILIES;
 use majorant_core::estimator::REGISTRY;
 use majorant_core::scene::SceneDoc;
@@ -34,10 +34,14 @@ pub(in crate::lab) fn self_check_ui(
                 families_ui(ui, check.deep);
             }
             if !check.rows.is_empty() {
-                table_ui(ui, &check.rows, check.only_failures);
+                ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+                    ui.set_min_width(TABLE_WIDTH);
+                    table_ui(ui, &check.rows, check.only_failures);
+                });
             }
         });
-    if response.should_close() {
+    // A click beside it does not throw minutes of work away.
+    if response.should_close() && !check.is_running() {
         commands.push(Command::CloseSelfCheck);
     }
 }
@@ -55,6 +59,7 @@ fn title_ui(ui: &mut Ui, commands: &mut Vec<Command>) {
 
 fn choices_ui(ui: &mut Ui, check: &mut SelfCheck, commands: &mut Vec<Command>) {
     let running = check.is_running();
+    let before = (check.subject, check.deep);
     ui.horizontal(|ui| {
         ui.add_enabled_ui(!running, |ui| {
             ui.scope(|ui| {
@@ -86,6 +91,9 @@ fn choices_ui(ui: &mut Ui, check: &mut SelfCheck, commands: &mut Vec<Command>) {
             if ui.add(Button::new(text).fill(palette.accent_fill).min_size(vec2(84.0, 0.0))).clicked() {
                 commands.push(Command::StartSelfCheck);
             }
+        }
+        if before != (check.subject, check.deep) {
+            check.clear();
         }
         if check.rows.is_empty() {
             return;

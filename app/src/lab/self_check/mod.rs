@@ -46,21 +46,11 @@ enum News {
     Ended(Ending),
 }
 
-/// A check that runs; dropping it cancels it and waits for its thread, which asks several times a millisecond.
+/// A check that runs.
 struct Running {
     generation: Arc<AtomicU64>,
     news: Receiver<News>,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        self.generation.store(1, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            // A panic in it has been reported as the end of its news.
-            let _ = thread.join();
-        }
-    }
+    thread: JoinHandle<()>,
 }
 
 /// The self-check of the window.
@@ -72,12 +62,25 @@ pub struct SelfCheck {
     deep: bool,
     only_failures: bool,
     running: Option<Running>,
+    /// Threads that have been told to end. The window does not wait for them: one may be reading a file.
+    leaving: Vec<JoinHandle<()>>,
     done: usize,
     total: usize,
     at: String,
     rows: Vec<Row>,
     notes: Vec<String>,
     ending: Option<Ending>,
+}
+
+/// The program waits for its threads when it ends.
+impl Drop for SelfCheck {
+    fn drop(&mut self) {
+        self.cancel();
+        for thread in self.leaving.drain(..) {
+            // A panic in it has been reported as the end of its news.
+            let _ = thread.join();
+        }
+    }
 }
 
 impl SelfCheck {
@@ -101,33 +104,40 @@ impl SelfCheck {
 
     /// Starts over; `wake` is called whenever there is news.
     pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + 'static) {
-        *self = Self {
-            open: true,
-            subject: self.subject,
-            deep: self.deep,
-            only_failures: self.only_failures,
-            ..Self::default()
-        };
+        self.clear();
         let own = (self.subject == Subject::ThisScene).then(|| (name.to_owned(), doc.clone()));
         let (deep, generation) = (self.deep, Arc::new(AtomicU64::new(0)));
         let (sender, news) = channel();
         let theirs = Arc::clone(&generation);
         let work = move || work(own, deep, Wanted::new(&theirs, 0), &sender, &wake);
         match std::thread::Builder::new().name("majorant-self-check".into()).spawn(work) {
-            Ok(thread) => self.running = Some(Running { generation, news, thread: Some(thread) }),
+            Ok(thread) => self.running = Some(Running { generation, news, thread }),
             Err(error) => self.ending = Some(Ending::Failed(format!("no thread could be started: {error}"))),
         }
     }
 
     /// Ends the check that runs; its rows stay.
     pub fn cancel(&mut self) {
-        if self.running.take().is_some() {
+        if let Some(running) = self.running.take() {
+            running.generation.store(1, Ordering::Relaxed);
+            self.leaving.push(running.thread);
             self.ending = Some(Ending::Cancelled);
         }
     }
 
+    /// Forgets the last check: its rows would be read as those of what is chosen now.
+    fn clear(&mut self) {
+        self.cancel();
+        (self.done, self.total) = (0, 0);
+        self.at.clear();
+        self.rows.clear();
+        self.notes.clear();
+        self.ending = None;
+    }
+
     /// Takes note of what the thread has told.
     pub fn poll(&mut self) {
+        self.leaving.retain(|thread| !thread.is_finished());
         let Some(running) = &self.running else { return };
         let mut ended = None;
         loop {
@@ -145,7 +155,8 @@ impl SelfCheck {
             }
         }
         if ended.is_some() {
-            (self.ending, self.running) = (ended, None);
+            self.leaving.extend(self.running.take().map(|running| running.thread));
+            self.ending = ended;
         }
     }
 
@@ -242,7 +253,8 @@ mod tests {
 
     #[test]
     fn a_scene_of_ones_own_ends_in_rows() {
-        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
+        let mut check = SelfCheck::default();
+        check.subject = Subject::ThisScene;
         let doc = scene(
             "majorant = 1\nmedium = { extinction = 1.0 }\nlights = [{ kind = \"environment\" }]\n\
              film = { width = 8, height = 8 }",
@@ -256,7 +268,8 @@ mod tests {
 
     #[test]
     fn a_file_that_is_missing_becomes_a_message() {
-        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
+        let mut check = SelfCheck::default();
+        check.subject = Subject::ThisScene;
         let doc = scene("majorant = 1\n[medium]\ndensity = { kind = \"grid\", file = \"/none.vdb\" }");
         check.start("mine", &doc, || {});
         let Ending::Failed(message) = finished(&mut check) else { panic!("it should have failed") };
@@ -265,7 +278,8 @@ mod tests {
 
     #[test]
     fn cancelling_keeps_the_rows_and_ends_the_thread() {
-        let mut check = SelfCheck { deep: true, ..SelfCheck::default() };
+        let mut check = SelfCheck::default();
+        check.deep = true;
         check.start("", &SceneDoc::default(), || {});
         while check.rows().is_empty() {
             std::thread::sleep(Duration::from_millis(2));

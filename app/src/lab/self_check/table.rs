@@ -7,6 +7,8 @@ use majorant_core::check::{Row, Verdict};
 use majorant_core::scene::Mode;
 
 const ROW_HEIGHT: f32 = 21.0;
+/// Narrower than this the verdict has no room.
+pub(super) const TABLE_WIDTH: f32 = 920.0;
 
 /// Headings, with what the numbers mean.
 const HEADINGS: [(&str, &str); 8] = [
@@ -117,11 +119,19 @@ fn four_digits(value: f64) -> String {
         format!("{value:.1}")
     } else if magnitude >= 10.0 {
         format!("{value:.2}")
-    } else {
+    } else if magnitude >= 0.01 || magnitude == 0.0 {
         format!("{value:.4}")
+    } else {
+        format!("{value:.1e}")
     }
 }
 
 fn short(error: f64) -> String {
-    if error >= 0.1 { format!("{error:.2}") } else { format!("{error:.4}") }
+    if error >= 0.1 {
+        format!("{error:.2}")
+    } else if !(1e-12..5e-5).contains(&error) {
+        format!("{error:.4}")
+    } else {
+        format!("{error:.0e}")
+    }
 }
