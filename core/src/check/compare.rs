@@ -49,7 +49,7 @@ const LARGEST_SKEWNESS: f64 = 1.0;
 /// Whether a series of batch means knows its own noise: a path that brings light is no rarity in it, and its
 /// scatter has no long tail. Otherwise the scatter of what was seen tells nothing of what was missed, and a
 /// block is judged as part of the whole.
-fn knows_its_noise(series: &[f64]) -> bool {
+pub(super) fn knows_its_noise(series: &[f64]) -> bool {
     let n = series.len() as f64;
     let seen = series.iter().filter(|mean| **mean != 0.0).count();
     let (mean, _) = mean_and_error(series);

@@ -61,6 +61,8 @@ pub struct Progress<'a> {
 
 /// Paths of the first look at an estimator's noise.
 const PILOT_PATHS: u64 = 16_384;
+/// An image that still does not know its noise after as many paths will hardly ever.
+const BLIND_PATHS: u64 = 8_000_000;
 /// Aims this much below the bias that has to be found: noise is known from a first look only.
 const MARGIN: f64 = 0.95;
 
@@ -144,7 +146,10 @@ impl Check {
         let needed = |image: &Batches| {
             let (mean, error) = image.whole();
             let found = (critical + power_t(DOF)) * error / mean.abs().max(f64::MIN_POSITIVE);
-            (share * (found / (self.effort.detect * MARGIN)).powi(2) * image.spp as f64).ceil()
+            // More paths make a long tail shorter.
+            let blind = !image.series.last().is_some_and(|s| compare::knows_its_noise(s));
+            let least = if blind { (4 * image.spp).min(BLIND_PATHS / per_sample) as f64 } else { 0.0 };
+            (share * (found / (self.effort.detect * MARGIN)).powi(2) * image.spp as f64).ceil().max(least)
         };
         let affordable = self.effort.seconds.map_or(f64::INFINITY, |s| s / per_spp);
         let max_paths = self.effort.max_paths.min(case.budget.unwrap_or(u64::MAX));
