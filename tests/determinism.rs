@@ -1,10 +1,10 @@
 //! The image after N samples depends on scene, settings, seed and N alone, bit by bit.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-use majorant_core::io::scene_file;
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{ObjectDoc, SceneDoc};
 use majorant_core::session::{Status, ViewId};
-use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
+use majorant_core::spectrum::SpectrumDoc;
+use majorant_tests::session::{Watched, assert_same, endless, finished, job, small_doc};
 
 const VIEW: ViewId = ViewId(0);
 
@@ -117,48 +117,19 @@ fn submit_endless(session: &Watched, endless: &SceneDoc) {
     session.wait(VIEW, |state| state.status == Status::Rendering);
 }
 
-fn endless_scenes() -> Vec<SceneDoc> {
-    let parse = |text: &str| {
-        let mut doc = scene_file::parse(text, "endless").unwrap();
-        doc.render.threads = Some(2);
-        doc
-    };
-    vec![
-        // Half a million mean free paths of albedo 1, the camera in the middle.
-        parse(
-            "majorant = 1
-            [camera]
-            origin = [0.0, 0.0, 0.0]
-            target = [0.0, 0.0, -1.0]
-            [film]
-            width = 61
-            height = 37
-            [medium]
-            extinction = 250000.0
-            albedo = 1.0
-            [[lights]]
-            kind = \"environment\"",
-        ),
-        // A closed white room without any medium: no collision is ever looked up.
-        parse(
-            "majorant = 1
-            [camera]
-            origin = [0.0, 0.0, 0.0]
-            target = [0.0, 0.0, -1.0]
-            [film]
-            width = 61
-            height = 37
-            [medium]
-            extinction = 0.0
-            [[lights]]
-            kind = \"environment\"
-            [[objects]]
-            kind = \"box\"
-            center = [0.0, 0.0, 0.0]
-            size = [3.0, 3.0, 3.0]
-            albedo = 1.0",
-        ),
-    ]
+/// Scenes in which collisions never end, or surfaces.
+fn endless_scenes() -> [SceneDoc; 2] {
+    let dense = endless(2);
+    // A closed white room without any medium: no collision is ever looked up.
+    let mut room = dense.clone();
+    room.medium.extinction = SpectrumDoc::Constant(0.0);
+    room.objects.push(ObjectDoc::Box {
+        center: [0.0; 3],
+        size: [3.0; 3],
+        rotate_deg: [0.0; 3],
+        albedo: SpectrumDoc::Constant(1.0),
+    });
+    [dense, room]
 }
 
 #[test]

@@ -3,10 +3,8 @@
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-use majorant_core::io::scene_file;
-use majorant_core::scene::SceneDoc;
 use majorant_core::session::{Status, ViewId};
-use majorant_tests::session::{Watched, job, small_doc};
+use majorant_tests::session::{Watched, endless, job, small_doc};
 use std::time::{Duration, Instant};
 
 /// Threads of this process that belong to sessions, by the start of their names.
@@ -24,26 +22,6 @@ fn assert_threads(expected: usize, when: &str) {
         assert!(began.elapsed() < Duration::from_secs(20), "{} threads, not {expected}, {when}", threads());
         std::thread::sleep(Duration::from_millis(2));
     }
-}
-
-/// A scene in which a single path takes hours.
-fn endless(threads: usize) -> SceneDoc {
-    let text = "
-        majorant = 1
-        [camera]
-        origin = [0.0, 0.0, 0.0]
-        target = [0.0, 0.0, -1.0]
-        [film]
-        width = 61
-        height = 37
-        [medium]
-        extinction = 250000.0
-        albedo = 1.0
-        [[lights]]
-        kind = \"environment\"";
-    let mut doc = scene_file::parse(text, "endless").unwrap();
-    doc.render.threads = Some(threads);
-    doc
 }
 
 #[test]

@@ -21,6 +21,27 @@ pub fn small_doc(threads: usize, spp: u32) -> SceneDoc {
     doc
 }
 
+/// A scene in which a single path takes hours: half a million mean free paths of albedo 1, the camera in the
+/// middle.
+pub fn endless(threads: usize) -> SceneDoc {
+    let text = "
+        majorant = 1
+        [camera]
+        origin = [0.0, 0.0, 0.0]
+        target = [0.0, 0.0, -1.0]
+        [film]
+        width = 61
+        height = 37
+        [medium]
+        extinction = 250000.0
+        albedo = 1.0
+        [[lights]]
+        kind = \"environment\"";
+    let mut doc = scene_file::parse(text, "endless").unwrap();
+    doc.render.threads = Some(threads);
+    doc
+}
+
 /// A job of a document.
 pub fn job(doc: &SceneDoc, preview: bool) -> Job {
     Job { doc: Arc::new(doc.clone()), preview }

@@ -18,7 +18,7 @@ pub enum CheckError {
         source: SceneError,
     },
     /// A reference that is part of the program is damaged.
-    #[error("{name}: the reference picture is damaged: {reason}; build the program again")]
+    #[error("{name}: the reference is damaged: {reason}; build the program again")]
     Reference {
         /// The case.
         name: String,

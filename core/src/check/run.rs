@@ -63,7 +63,7 @@ pub struct Progress<'a> {
 const PILOT_PATHS: u64 = 16_384;
 /// An image that still does not know its noise after as many paths will hardly ever.
 const BLIND_PATHS: u64 = 8_000_000;
-/// Aims this much below the bias that has to be found: noise is known from a first look only.
+/// Aims this much below the bias that has to be found: the noise is known roughly only.
 const MARGIN: f64 = 0.95;
 
 impl Check {
@@ -96,17 +96,16 @@ impl Check {
                     return Ok(None);
                 };
                 done += 1;
-                let rows = match &case.answer {
-                    Answer::Known(values) => {
-                        vec![compare::against_known(case, entry, &image, values, critical)]
+                images.push((*entry, image));
+                let rows = match (&case.answer, images.last()) {
+                    (Answer::Known(values), Some((_, image))) => {
+                        vec![compare::against_known(case, entry, image, values, critical)]
                     }
-                    Answer::Agreement if images.len() + 1 == estimators.len() => {
-                        images.push((*entry, image.clone()));
+                    (Answer::Agreement, _) if images.len() == estimators.len() => {
                         compare::pairwise(case, &images, critical)
                     }
-                    Answer::Agreement => Vec::new(),
+                    _ => Vec::new(),
                 };
-                images.push((*entry, image));
                 on_progress(Progress { done, rows: &rows, ..progress });
                 report.rows.extend(rows);
             }

@@ -114,21 +114,30 @@ pub(super) fn box_interval(
     (t0 < t1).then_some((t0, t1))
 }
 
-/// ∫ f over the unit interval by the midpoint rule.
-pub(super) fn midpoint(steps: u32, mut f: impl FnMut(f64) -> f64) -> f64 {
-    (0..steps).map(|i| f((f64::from(i) + 0.5) / f64::from(steps))).sum::<f64>() / f64::from(steps)
+/// ∫ f over the unit interval by Gauss's two-point rule in each of `cells` equal parts: an error of fourth
+/// order where f is smooth, and no harm where it has kinks.
+pub(super) fn integrate(cells: u32, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let width = 1.0 / f64::from(cells);
+    let off = 0.5 / 3f64.sqrt();
+    let sum: f64 = (0..cells)
+        .map(|i| {
+            let middle = f64::from(i) + 0.5;
+            f((middle - off) * width) + f((middle + off) * width)
+        })
+        .sum();
+    0.5 * width * sum
 }
 
 /// ∫ f(ω) dω over the directions within `half_angle` of the unit vector `axis`.
-pub(super) fn over_cap(axis: DVec3, half_angle: f64, steps: u32, mut f: impl FnMut(DVec3) -> f64) -> f64 {
+pub(super) fn over_cap(axis: DVec3, half_angle: f64, cells: u32, mut f: impl FnMut(DVec3) -> f64) -> f64 {
     let (u, v) = axis.any_orthonormal_pair();
     let height = 1.0 - half_angle.cos();
     2.0 * PI
         * height
-        * midpoint(steps, |a| {
+        * integrate(cells, |a| {
             let cos = 1.0 - height * a;
             let sin = (1.0 - cos * cos).max(0.0).sqrt();
-            midpoint(2 * steps, |b| {
+            integrate(2 * cells, |b| {
                 let (s, c) = (2.0 * PI * b).sin_cos();
                 f(axis * cos + (u * c + v * s) * sin)
             })
@@ -175,7 +184,7 @@ mod tests {
 
     #[test]
     fn phase_functions_integrate_to_one() {
-        let total = |p: &dyn Fn(f64) -> f64| 4.0 * PI * midpoint(20_000, |u| p(2.0 * u - 1.0));
+        let total = |p: &dyn Fn(f64) -> f64| 4.0 * PI * integrate(20_000, |u| p(2.0 * u - 1.0));
         assert!((total(&|c| henyey_greenstein(0.9, c)) - 1.0).abs() < 1e-4);
         assert!((total(&|c| henyey_greenstein(-0.5, c)) - 1.0).abs() < 1e-6);
         assert!((total(&rayleigh) - 1.0).abs() < 1e-6);

@@ -91,7 +91,7 @@ mod tests {
     fn h_at_1(albedo: f64) -> f64 {
         let quarter = std::f64::consts::FRAC_PI_2;
         let integral = quarter
-            * crate::check::truth::midpoint(200_000, |u| {
+            * crate::check::truth::integrate(20_000, |u| {
                 let theta = quarter * u;
                 (1.0 - albedo * theta / theta.tan()).ln()
             });

@@ -59,7 +59,7 @@ fn occluder() -> Result<Case, CheckError> {
     let toward = DVec3::new(1.0, 0.1, 0.2);
     let single = [0.5, 1.5, 3.0].map(|extinction| {
         Cube { extinction, albedo: 0.9 }.single_fine(
-            (400, 50),
+            (250, 40),
             isotropic,
             |_| sun(toward, 120.0, 2.0),
             |point, omega| truth::box_interval(point, omega, center, half).is_none_or(|(_, far)| far < 0.0),
@@ -96,18 +96,18 @@ fn direction(x: f64, y: f64) -> DVec3 {
 
 fn tiny_sun() -> Result<Case, CheckError> {
     let (extinction, albedo) = (2.0, 0.9);
-    let single = truth::midpoint(100, |s| {
+    let single = truth::integrate(40, |s| {
         let point = DVec3::new(0.0, 0.0, 0.5 - s);
         let mut received = 0.0;
         for row in 0..SKY.1 {
             for column in 0..SKY.0 {
                 // The phase function is steep around straight ahead.
                 let ahead = -direction(column as f64 + 0.5, row as f64 + 0.5).z;
-                let raster = if ahead > 0.9 { 12 } else { 2 };
+                let raster = if ahead > 0.9 { 8 } else { 2 };
                 let radiance = if (column, row) == SUN { SUN_RADIANCE } else { SKY_RADIANCE };
                 received += radiance
-                    * truth::midpoint(raster, |v| {
-                        truth::midpoint(raster, |u| {
+                    * truth::integrate(raster, |v| {
+                        truth::integrate(raster, |u| {
                             let omega = direction(column as f64 + u, row as f64 + v);
                             // The solid angle per texel area shrinks towards the poles.
                             let jacobian =
@@ -146,7 +146,7 @@ fn diffuse_ground() -> Result<Case, CheckError> {
     let (ground, center, radius) = (DVec3::new(0.0, 0.0, -2.0), DVec3::new(2.2, 0.3, -0.9), 0.8);
     let to = center - ground;
     let irradiance =
-        truth::over_cap(to.normalize(), (radius / to.length()).asin(), 60, |omega| 4.0 * omega.z);
+        truth::over_cap(to.normalize(), (radius / to.length()).asin(), 30, |omega| 4.0 * omega.z);
     let albedo = [0.3, 0.6, 0.9];
     let colour = albedo.map(|a| (-1.0f64).exp() * a / PI * irradiance);
     let rest = "[medium]
@@ -171,12 +171,12 @@ fn lamp_inside() -> Result<Case, CheckError> {
     let radius = 0.24;
     let sigma = [0.5, 2.0, 5.0];
     let colour = sigma.map(|extinction| {
-        truth::midpoint(200, |s| {
+        truth::integrate(100, |s| {
             let point = DVec3::new(0.0, 0.0, 0.5 - s);
             let to = center - point;
             let half_angle = (radius / to.length()).asin();
             let light = Disc { axis: to.normalize(), half_angle, radiance: 4.0 };
-            let received = truth::over_cap(light.axis, light.half_angle, 20, |omega| {
+            let received = truth::over_cap(light.axis, light.half_angle, 14, |omega| {
                 let along = to.dot(omega);
                 let off = (to.length_squared() - along * along).max(0.0);
                 let distance = along - (radius * radius - off).max(0.0).sqrt();

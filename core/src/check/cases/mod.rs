@@ -12,6 +12,7 @@ mod oracle;
 mod single_scattering;
 
 use super::{Case, CheckError, Family};
+use rayon::prelude::*;
 
 /// Every family, the quickest to understand first.
 pub static FAMILIES: &[Family] = &[
@@ -31,7 +32,7 @@ pub static FAMILIES: &[Family] = &[
 /// # Errors
 /// When the program was built with a damaged case.
 pub fn built_in(deep: bool) -> Result<Vec<Case>, CheckError> {
-    let families = FAMILIES.iter().filter(|f| deep || !f.deep_only);
+    let families = FAMILIES.par_iter().filter(|f| deep || !f.deep_only);
     families.map(|f| (f.cases)()).collect::<Result<Vec<_>, _>>().map(|cases| cases.concat())
 }
 

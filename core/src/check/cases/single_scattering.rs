@@ -39,19 +39,19 @@ pub(super) struct Cube {
 impl Cube {
     /// The integral over the axis and over the disc that is seen from each point of it.
     pub fn single(&self, phase: impl Fn(f64) -> f64, disc: impl Fn(DVec3) -> Disc) -> f64 {
-        self.single_fine((160, 20), phase, disc, |_, _| true)
+        self.single_fine((60, 16), phase, disc, |_, _| true)
     }
 
     /// The same with a raster of one's own along the axis and across the disc, and with occluders: `lit`
     /// says whether light arrives at a point from a direction.
     pub fn single_fine(
         &self,
-        (steps, across): (u32, u32),
+        (along, across): (u32, u32),
         phase: impl Fn(f64) -> f64,
         disc: impl Fn(DVec3) -> Disc,
         lit: impl Fn(DVec3, DVec3) -> bool,
     ) -> f64 {
-        truth::midpoint(steps, |s| {
+        truth::integrate(along, |s| {
             let point = DVec3::new(0.0, 0.0, 0.5 - s);
             let light = disc(point);
             let received = truth::over_cap(light.axis, light.half_angle, across, |omega| {
@@ -70,7 +70,8 @@ pub(super) fn to_face(point: DVec3, direction: DVec3) -> f64 {
     truth::box_interval(point, direction, DVec3::ZERO, DVec3::splat(0.5)).map_or(0.0, |(_, far)| far)
 }
 
-/// Quadrature is good to this.
+/// Quadrature is good to this: a raster two to three times as fine in every dimension differs by at most
+/// 2.1·10⁻⁴, and by 1.1·10⁻⁴ in the rough grid.
 pub(super) const QUADRATURE: f64 = 3e-4;
 
 /// A sun of irradiance 2, `diameter` degrees wide.
@@ -106,19 +107,16 @@ fn in_lattice(lattice: &Lattice3, sigma: f64, light: &Disc) -> f64 {
     let n = DVec3::from_array(lattice.size.map(|n| n as f64));
     let held = |i: i64, n: i64| Some(i.clamp(0, n - 1));
     let density = |p: DVec3| lattice.at((p + 0.5) * n - 0.5, held);
-    let steps = 160u32;
-    let mut before = 0.0;
-    truth::midpoint(steps, |s| {
-        let point = DVec3::new(0.0, 0.0, 0.5 - s);
+    let column = |from: DVec3, direction: DVec3, length: f64| {
+        length * truth::integrate(24, |t| density(from + direction * (length * t)))
+    };
+    let face = DVec3::new(0.0, 0.0, 0.5);
+    truth::integrate(60, |s| {
+        let point = face - DVec3::Z * s;
         let here = density(point);
-        // τ to the middle of the step.
-        let step = 1.0 / f64::from(steps);
-        let tau = sigma * (before + 0.5 * here * step);
-        before += here * step;
-        let received = truth::over_cap(light.axis, light.half_angle, 14, |omega| {
-            let far = to_face(point, omega);
-            let column = far * truth::midpoint(40, |t| density(point + omega * (far * t)));
-            light.radiance * (-sigma * column).exp()
+        let tau = sigma * column(face, -DVec3::Z, s);
+        let received = truth::over_cap(light.axis, light.half_angle, 8, |omega| {
+            light.radiance * (-sigma * column(point, omega, to_face(point, omega))).exp()
         });
         (-tau).exp() * sigma * 0.8 * here * received / (4.0 * std::f64::consts::PI)
     })
