@@ -143,7 +143,10 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let cloud = scene("cloud", &format!("{ASIDE}{CLOUD}"))?;
     let grids = scene("rgb-grids", &format!("{ASIDE}{RGB_GRIDS}"))?.with_files(files());
     Ok(vec![
-        plume.varied("agreement/plume-analogue", |d| d.estimator.absorption = Absorption::Analogue),
+        plume.varied("agreement/plume-analogue-rgb", |d| {
+            d.estimator.absorption = Absorption::Analogue;
+            d.estimator.mode = Mode::Rgb;
+        }),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
         cloud,

@@ -16,6 +16,7 @@ use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
 use super::AXIS;
 use crate::scene::Absorption;
+use crate::spectrum::SpectrumDoc;
 
 pub(super) const FAMILY: Family = Family {
     id: "half-space",
@@ -63,7 +64,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let rgb = Case::new("half-space/rgb", &rgb, answer)?;
     let grey = rgb.varied("half-space/weighted", |doc| {
         // Without roulette a path ends where it leaves the box, or where its weight has underflowed.
-        doc.medium.extinction = crate::spectrum::SpectrumDoc::Constant(1.0);
+        doc.medium.extinction = SpectrumDoc::Constant(1.0);
     });
     let points = Points(&[(400.0, 0.3), (700.0, 0.95)]);
     let table: Vec<f64> = (0..=100).map(|i| escape(f64::from(i) / 100.0)).collect();

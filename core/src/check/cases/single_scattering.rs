@@ -161,9 +161,12 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let single = sigma.map(|extinction| Cube { extinction, albedo: 0.8 }.single(isotropic, sphere));
     cases.push(case("sphere", medium, lamp, "rgb", Answer::uniform(single, Layout::WHOLE))?);
 
-    let points = Points(&[(430.0, 1.0), (540.0, 5.0), (620.0, 2.0)]);
+    // A sun that fills most of the half-space: one wavelength in a path is noise enough.
+    let (points, wide) = (Points(&[(430.0, 1.0), (540.0, 5.0), (620.0, 2.0)]), 150.0);
     let table: Vec<f64> = (0..=50)
-        .map(|i| Cube { extinction: f64::from(i) * 0.1, albedo: 0.8 }.single(isotropic, sphere))
+        .map(|i| {
+            Cube { extinction: f64::from(i) * 0.1, albedo: 0.8 }.single(isotropic, |_| sun(before, wide, 2.0))
+        })
         .collect();
     let spectral = truth::film(|l| {
         let x = points.at(l) * 10.0;
@@ -172,7 +175,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     });
     let extinction = format!("extinction = {}", points.toml());
     let answer = Answer::uniform(spectral, Layout::WHOLE).within(3e-4);
-    cases.push(case("sphere-nm", &extinction, lamp, "spectral", answer)?);
+    cases.push(case("sun-nm", &extinction, &sun_toml(before, wide), "spectral", answer)?);
 
     let rough = fixture::rough_lattice([3, 3, 3], 6);
     let toward = DVec3::new(0.8, 0.5, 0.3);
