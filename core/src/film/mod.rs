@@ -9,7 +9,7 @@ mod pixel;
 mod snapshot;
 
 pub use pixel::Pixel;
-pub use snapshot::{NonFinite, Snapshot, Tally};
+pub use snapshot::{Images, Noise, NonFinite, Snapshot, Tally};
 
 /// Accumulated pixels, row by row from the top.
 #[derive(Clone, Debug)]

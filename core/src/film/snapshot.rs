@@ -1,6 +1,7 @@
 //! What a session publishes: an immutable picture with its numbers.
 
-use super::Film;
+use super::{Film, Pixel};
+use rayon::prelude::*;
 
 /// Where a non-finite sample arose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +61,8 @@ pub struct Snapshot {
     pub mean: Vec<[f32; 3]>,
     /// Standard error of the mean; infinite below two samples.
     pub standard_error: Vec<[f32; 3]>,
+    /// What else is known about every pixel's noise; empty for a coarse preview.
+    pub noise: Vec<Noise>,
     /// Samples per pixel in it; 0 for a coarse preview.
     pub spp: u32,
     /// In a coarse preview, the edge in pixels of the blocks that share one sample.
@@ -72,20 +75,50 @@ pub struct Snapshot {
     pub tally: Tally,
     /// Worker threads.
     pub threads: usize,
+    /// Relative standard error of `cpu_seconds`, from its scatter over passes; infinite before the second.
+    pub cost_error: f64,
+    /// Names the image that the samples converge to; empty if nobody asked for it.
+    pub target: String,
+}
+
+/// A pixel's noise beyond its standard error. Variances are means over the three channels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// The part of the variance of the mean that is perpendicular to grey.
+    pub chroma_variance: f32,
+    /// Third central moment of the mean's grey.
+    pub third_moment: f32,
+    /// Standard error of the variance of the mean.
+    pub variance_error: f32,
+    /// Samples in the mean.
+    pub samples: u32,
+    /// Look-ups of the medium for all of them.
+    pub lookups: f32,
+}
+
+/// What a film shows, at single precision.
+#[derive(Clone, Debug, Default)]
+pub struct Images {
+    /// Mean linear sRGB.
+    pub mean: Vec<[f32; 3]>,
+    /// Its standard error.
+    pub standard_error: Vec<[f32; 3]>,
+    /// What else is known about its noise.
+    pub noise: Vec<Noise>,
 }
 
 impl Snapshot {
-    /// Mean colour and standard error of every pixel of a film, at single precision.
+    /// Root mean square of the standard error over the image's mean: how noisy the whole is. Pixels without a
+    /// finite value are left out.
     #[must_use]
-    pub fn images(film: &Film) -> (Vec<[f32; 3]>, Vec<[f32; 3]>) {
-        film.pixels
-            .iter()
-            .map(|p| {
-                // A pixel all of whose samples were rejected has no value; it shows as one.
-                let mean = if p.count == 0 { [f32::NAN; 3] } else { p.mean.map(|x| x as f32) };
-                (mean, p.variance_of_mean().map(|v| v.sqrt() as f32))
-            })
-            .unzip()
+    pub fn relative_error(&self) -> f64 {
+        let (mut variance, mut mean, mut known) = (0.0, 0.0, 0u64);
+        for (m, e) in self.mean.iter().flatten().zip(self.standard_error.iter().flatten()) {
+            if m.is_finite() && e.is_finite() {
+                (variance, mean, known) = (variance + f64::from(*e).powi(2), mean + f64::from(*m), known + 1);
+            }
+        }
+        if known == 0 { f64::INFINITY } else { (variance * known as f64).sqrt() / mean }
     }
 
     /// The image's mean colour.
@@ -98,5 +131,34 @@ impl Snapshot {
             }
         }
         sum.map(|s| s / self.mean.len().max(1) as f64)
+    }
+}
+
+impl Images {
+    /// Reads a film, on the threads of the pool that it is called in.
+    #[must_use]
+    pub fn of(film: &Film) -> Self {
+        let (mean, (standard_error, noise)) =
+            film.pixels.par_iter().with_min_len(4096).map(|p| (shown(p), (error(p), noise(p)))).unzip();
+        Self { mean, standard_error, noise }
+    }
+}
+
+fn shown(p: &Pixel) -> [f32; 3] {
+    // A pixel all of whose samples were rejected has no value; it shows as one.
+    if p.count == 0 { [f32::NAN; 3] } else { p.mean.map(|x| x as f32) }
+}
+
+fn error(p: &Pixel) -> [f32; 3] {
+    p.variance_of_mean().map(|v| v.sqrt() as f32)
+}
+
+fn noise(p: &Pixel) -> Noise {
+    Noise {
+        chroma_variance: p.chroma_variance_of_mean() as f32,
+        third_moment: p.third_moment_of_mean() as f32,
+        variance_error: p.variance_of_variance().sqrt() as f32,
+        samples: p.count,
+        lookups: p.lookups as f32,
     }
 }
