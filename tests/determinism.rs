@@ -1,6 +1,7 @@
 //! The image after N samples depends on scene, settings, seed and N alone, bit by bit.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+use majorant_core::scene::Limits;
 use majorant_core::scene::{ObjectDoc, SceneDoc};
 use majorant_core::session::{Status, ViewId};
 use majorant_core::spectrum::SpectrumDoc;
@@ -32,7 +33,7 @@ fn pauses_steps_and_raised_limits_do_not_matter() {
     session.submit(VIEW, job(&small_doc(2, 3), true));
     session.wait_finished(VIEW);
     session.set_paused(VIEW, true);
-    session.set_limits(VIEW, Some(12), None);
+    session.set_limits(VIEW, Limits::samples(12));
     session.step(VIEW);
     session.wait_picture(VIEW, |_, s| s.spp == 4);
     session.step(VIEW);
@@ -51,7 +52,7 @@ fn limits_raised_step_by_step_do_not_matter() {
         let session = Watched::new();
         session.submit(VIEW, job(&small_doc(2, pieces[0]), false));
         for spp in pieces {
-            session.set_limits(VIEW, Some(*spp), None);
+            session.set_limits(VIEW, Limits::samples(*spp));
             session.wait_picture(VIEW, |_, s| s.spp == *spp);
         }
         assert_same(&whole, &session.wait_finished(VIEW));
@@ -62,7 +63,7 @@ fn limits_raised_step_by_step_do_not_matter() {
 fn a_restart_keeps_the_limits_that_were_set_last() {
     let session = Watched::new();
     session.submit(VIEW, job(&small_doc(2, 2), false));
-    session.set_limits(VIEW, Some(5), None);
+    session.set_limits(VIEW, Limits::samples(5));
     session.wait_picture(VIEW, |_, s| s.spp == 5);
     session.restart(VIEW);
     assert_same(&session.wait_finished(VIEW), &finished(&small_doc(2, 5)));

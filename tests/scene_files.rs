@@ -4,8 +4,9 @@
 use majorant_core::io::embedded::SCENES;
 use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
 use majorant_core::scene::{
-    Absorption, CameraDoc, DensityDoc, EstimatorDoc, FilmDoc, GridRef, LightDoc, MajorantDoc, MediumDoc,
-    Mode, ObjectDoc, PhaseDoc, PlacementDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc, WhenExceeded,
+    Absorption, Arrangement, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, EstimatorDoc, Fairness,
+    FilmDoc, GridRef, Layer, LightDoc, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc,
+    PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc};
 
@@ -57,8 +58,37 @@ fn everything() -> SceneDoc {
             max_depth: Some(7),
             roulette_depth: Some(3),
         },
-        render: RenderDoc { spp: None, seconds: Some(12.5), seed: 42, threads: Some(3) },
+        render: RenderDoc {
+            spp: None,
+            seconds: Some(12.5),
+            cpu_seconds: Some(25.0),
+            relative_error: Some(0.01),
+            seed: 42,
+            threads: Some(3),
+        },
         view: ViewDoc { exposure_ev: -1.5, tone: ToneCurve::Reinhard, gamma: Some(2.2) },
+        compare: CompareDoc {
+            views: vec![ContenderDoc {
+                estimator: EstimatorDoc { max_depth: Some(2), ..EstimatorDoc::default() },
+                majorant: MajorantDoc { factor: 2.0, ..MajorantDoc::default() },
+                seed: 7,
+                camera: Some(CameraDoc { fov_deg: 12.0, ..CameraDoc::default() }),
+                view: Some(ViewDoc { exposure_ev: 2.0, ..ViewDoc::default() }),
+            }],
+            fairness: Fairness::Lookups,
+            reference: ReferenceDoc::Render {
+                estimator: "spectral-mis".into(),
+                spp: Some(1024),
+                relative_error: Some(0.01),
+            },
+            baseline: 1,
+            arrangement: Arrangement::Wipe,
+            pair: Pair(1, 0),
+            layer: Layer("z".into()),
+            measure: MeasureId("mse".into()),
+            region: Some([1, 2, 30, 40]),
+            own_zoom: true,
+        },
     }
 }
 

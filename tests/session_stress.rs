@@ -4,6 +4,7 @@
 
 use majorant_core::film::Snapshot;
 use majorant_core::math::Sampler;
+use majorant_core::scene::Limits;
 use majorant_core::scene::{Mode, SceneDoc};
 use majorant_core::session::{Status, ViewId};
 use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
@@ -54,7 +55,7 @@ fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) 
             0 | 1 => session.set_paused(view, below(2) == 0),
             2 | 3 => session.step(view),
             4 => session.restart(view),
-            5 | 6 => session.set_limits(view, Some(1 + below(SPP)), None),
+            5 | 6 => session.set_limits(view, Limits::samples(1 + below(SPP))),
             7 | 8 => {
                 let chosen = below(documents.len() as u32) as usize;
                 session.submit(view, job(&documents[chosen].0, below(2) == 0));
@@ -92,7 +93,7 @@ fn storms_of_requests_leave_every_image_as_it_was() {
                 0
             });
             session.set_paused(view, false);
-            session.set_limits(view, Some(SPP), None);
+            session.set_limits(view, Limits::samples(SPP));
             let image = session.wait_picture(view, |status, s| *status == Status::Finished && s.spp == SPP);
             assert_same(&image, &documents[chosen].1);
         }

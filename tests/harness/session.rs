@@ -3,7 +3,7 @@
 use majorant_core::film::Snapshot;
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::scene::SceneDoc;
-use majorant_core::session::{Job, Session, Status, ViewId, ViewState};
+use majorant_core::session::{Job, Role, Session, Status, ViewId, ViewState};
 use std::ops::Deref;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -44,7 +44,7 @@ pub fn endless(threads: usize) -> SceneDoc {
 
 /// A job of a document.
 pub fn job(doc: &SceneDoc, preview: bool) -> Job {
-    Job { doc: Arc::new(doc.clone()), preview }
+    Job { doc: Arc::new(doc.clone()), preview, role: Role::Contender }
 }
 
 /// A session that tells when there is something new to see.

@@ -4,8 +4,8 @@ use super::progress::Progress;
 use super::{Failure, print_line, source};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, scene_file};
-use majorant_core::scene::SceneDoc;
-use majorant_core::session::{Job, Session, Status, ViewId};
+use majorant_core::scene::{Limits, SceneDoc};
+use majorant_core::session::{Job, Role, Session, Status, ViewId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc;
@@ -84,9 +84,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = source::load(&arguments.scene)?;
     let mut doc = scene_file::override_keys(&source.doc, &arguments.assignments())?;
     if arguments.spp.is_some() || arguments.seconds.is_some() {
-        (doc.render.spp, doc.render.seconds) = (arguments.spp, arguments.seconds);
+        doc.render.set_limits(Limits { spp: arguments.spp, seconds: arguments.seconds, ..Limits::default() });
     }
-    if doc.render.spp.is_none() && doc.render.seconds.is_none() {
+    if doc.render.limits().are_none() {
         return Err(Failure::Message("the render would never end: give --spp or --seconds".into()));
     }
     if let Some(problem) = majorant_core::estimator::validate(&doc).first() {
@@ -123,7 +123,7 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
         let _ = wake.try_send(());
     })?;
     let view = ViewId(0);
-    session.submit(view, Job { doc, preview: false });
+    session.submit(view, Job { doc, preview: false, role: Role::Contender });
     loop {
         let state = session.state(view);
         if let Some(snapshot) = &state.snapshot {

@@ -6,7 +6,7 @@ use super::{Answer, Command, LabApp, Severity, Stats, VIEW};
 use crate::model::{Source, Work, work_after};
 use crate::view::image_view::ImageView;
 use egui::{Context, TextureFilter, TextureOptions, ViewportCommand};
-use majorant_core::session::{Job, Status};
+use majorant_core::session::{Job, Role, Status};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -207,9 +207,10 @@ impl LabApp {
         let work = self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, doc));
         match work {
             Work::None => return,
-            Work::Limits => self.session.set_limits(VIEW, doc.render.spp, doc.render.seconds),
+            Work::Limits => self.session.set_limits(VIEW, doc.render.limits()),
             Work::Render => {
-                let job = Job { doc: Arc::new(self.document.resolved()), preview: true };
+                let job =
+                    Job { doc: Arc::new(self.document.resolved()), preview: true, role: Role::Contender };
                 self.session.submit(VIEW, job);
             }
         }

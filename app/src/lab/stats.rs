@@ -99,12 +99,15 @@ mod tests {
             height: 1,
             mean: vec![[0.0; 3]; 2],
             standard_error: vec![[0.0; 3]; 2],
+            noise: Vec::new(),
             spp,
             coarse: None,
             seconds,
             cpu_seconds: seconds,
             tally: Tally { paths: 2 * u64::from(spp), lookups: 20 * u64::from(spp), ..Tally::default() },
             threads: 1,
+            cost_error: 0.0,
+            target: String::new(),
         };
         ViewState {
             generation: 3,
@@ -113,6 +116,7 @@ mod tests {
             notices: Vec::new(),
             first_picture_seconds: None,
             scene: None,
+            probe: None,
         }
     }
 

@@ -1,24 +1,13 @@
 //! File names inside a document: relative to its scene file when stored, absolute when rendered.
 
-use majorant_core::scene::{DensityDoc, LightDoc, SceneDoc};
+use majorant_core::scene::SceneDoc;
 use std::path::{Path, PathBuf};
 
-/// Everything in a document that names a file.
+/// The names that depend on where a scene lies.
 fn files(doc: &mut SceneDoc) -> Vec<&mut String> {
-    let mut files = Vec::new();
-    if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut doc.medium.density {
-        files.push(&mut grid.file);
-    }
-    if let Some(grid) = &mut doc.medium.albedo_grid {
-        files.push(&mut grid.file);
-    }
-    for light in &mut doc.lights {
-        if let LightDoc::EnvironmentMap { file, .. } = light {
-            files.push(file);
-        }
-    }
-    // `embedded:plume.vdb` is part of the program, and an empty name is still to be filled in.
-    files.retain(|file| !file.is_empty() && !file.starts_with("embedded:"));
+    let mut files = doc.files_mut();
+    // `embedded:plume.vdb` is part of the program.
+    files.retain(|file| !file.starts_with("embedded:"));
     files
 }
 
@@ -48,7 +37,7 @@ pub fn rebase(doc: &SceneDoc, from: &Path, to: &Path) -> SceneDoc {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use majorant_core::scene::GridRef;
+    use majorant_core::scene::{DensityDoc, GridRef};
 
     fn with_volume(file: &str) -> SceneDoc {
         let mut doc = SceneDoc::default();

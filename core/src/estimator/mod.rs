@@ -11,7 +11,7 @@ pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::scene::{self, Problem, SceneDoc, WhenExceeded};
+use crate::scene::{self, Problem, ReferenceDoc, SceneDoc, WhenExceeded};
 use crate::spectrum::{Components, Sampled};
 use crate::transport::{Trace, World};
 
@@ -61,12 +61,17 @@ pub fn find(id: &str) -> Option<&'static Entry> {
 #[must_use]
 pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     let mut problems = scene::validate(doc);
-    if find(&doc.estimator.id).is_none() {
+    let mut named = vec![("estimator.id".to_owned(), &doc.estimator.id)];
+    for (i, view) in doc.compare.views.iter().enumerate() {
+        named.push((format!("compare.views[{i}].estimator.id"), &view.estimator.id));
+    }
+    if let ReferenceDoc::Render { estimator, .. } = &doc.compare.reference {
+        named.push(("compare.reference.estimator".to_owned(), estimator));
+    }
+    for (path, id) in named.into_iter().filter(|(_, id)| find(id).is_none()) {
         let known: Vec<_> = REGISTRY.iter().map(|e| e.id).collect();
-        problems.push(Problem {
-            path: "estimator.id".into(),
-            message: format!("`{}` is not an estimator: choose {}", doc.estimator.id, known.join(", ")),
-        });
+        let message = format!("`{id}` is not an estimator: choose {}", known.join(", "));
+        problems.push(Problem { path, message });
     }
     problems
 }

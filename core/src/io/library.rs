@@ -1,10 +1,10 @@
 //! Finds and keeps the files that scenes name.
 
 use super::volume::{self, Limits, SampleConvention, VoxelGrid};
-use super::{embedded, picture};
+use super::{embedded, fingerprint, picture};
 use crate::light::Panorama;
 use crate::medium::{Grid, Lattice};
-use crate::scene::{GridRef, LightDoc, PlacedGrid, ResourceError, Resources, SceneDoc};
+use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
 use glam::{Affine3A, DAffine3, DVec3};
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -31,6 +31,7 @@ pub struct Library {
     /// Files that exist in memory only, by the name that scenes use.
     in_memory: BTreeMap<String, Arc<[u8]>>,
     pictures_in_memory: BTreeMap<String, Arc<Panorama>>,
+    digests: HashMap<Key, String>,
 }
 
 /// Files of one kind that are kept; a student flips between a few clouds.
@@ -61,12 +62,7 @@ impl Library {
     /// When the files that a document names were last written: a scene is out of date once they change.
     #[must_use]
     pub fn stamps(&self, doc: &SceneDoc) -> Vec<Option<SystemTime>> {
-        let grids = doc.medium.density.grid().into_iter().chain(&doc.medium.albedo_grid).map(|g| &g.file);
-        let pictures = doc.lights.iter().filter_map(|light| match light {
-            LightDoc::EnvironmentMap { file, .. } => Some(file),
-            _ => None,
-        });
-        grids.chain(pictures).map(|file| self.key(file, None).modified).collect()
+        doc.scene_part().files_mut().into_iter().map(|file| self.key(file, None).modified).collect()
     }
 
     fn key(&self, file: &str, grid: Option<&String>) -> Key {
@@ -74,6 +70,20 @@ impl Library {
             if file.starts_with(embedded::PREFIX) { PathBuf::from(file) } else { self.base.join(file) };
         let modified = std::fs::metadata(&path).and_then(|m| m.modified()).ok();
         Key { path, grid: grid.cloned(), modified }
+    }
+
+    /// Names a file's content; a file that cannot be read goes by its name.
+    pub(super) fn digest(&mut self, file: &str) -> String {
+        if let Some(bytes) = self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
+            return fingerprint::of_bytes(bytes);
+        }
+        let key = self.key(file, None);
+        if let Some(known) = self.digests.get(&key) {
+            return known.clone();
+        }
+        let digest = std::fs::read(&key.path).map_or_else(|_| file.to_owned(), |b| fingerprint::of_bytes(&b));
+        self.digests.insert(key, digest.clone());
+        digest
     }
 
     fn read(&self, key: &Key, file: &str) -> Result<VoxelGrid, ResourceError> {

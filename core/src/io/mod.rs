@@ -2,6 +2,7 @@
 
 pub mod embedded;
 pub mod export;
+pub mod fingerprint;
 mod library;
 pub mod picture;
 pub mod scene_file;

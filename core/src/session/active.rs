@@ -1,10 +1,9 @@
 //! One view while it renders: its film, its limits, its next pass.
 
-use super::Status;
 use super::pass::Work;
-use crate::estimator::{Kernel, Settings};
-use crate::film::{Film, Snapshot, Tally};
-use crate::scene::{RenderDoc, Scene};
+use super::{Probe, Role, Status};
+use crate::film::{Film, Images, Snapshot, Tally};
+use crate::scene::Limits;
 use crate::transport::Wanted;
 use rayon::ThreadPool;
 use std::num::NonZeroUsize;
@@ -19,27 +18,61 @@ const PASS_SECONDS: f64 = 0.15;
 pub(super) struct Active {
     pub generation: u64,
     pub current: Arc<AtomicU64>,
-    pub scene: Arc<Scene>,
-    pub kernel: Kernel,
-    pub settings: Settings,
+    pub probe: Probe,
     pub pool: Arc<ThreadPool>,
     pub film: Film,
     pub spp: u32,
-    pub limits: (Option<u32>, Option<f32>),
+    pub limits: Limits,
+    pub role: Role,
+    /// Names the image that it converges to.
+    pub target: String,
     pub paused: bool,
     pub steps: u32,
     pub last_pass: u32,
     pub seconds: f64,
     pub cpu_seconds: f64,
-    /// CPU seconds by which views take turns; starts level with those that run already.
-    pub turn: f64,
     pub tally: Tally,
+    /// Standard error over mean, at the end of the last pass; infinite unless there is a limit to it.
+    relative_error: f64,
+    cost: CostScatter,
+}
+
+/// How CPU seconds per sample scatter over passes: Σ over passes, weighted by their samples.
+#[derive(Clone, Copy, Debug, Default)]
+struct CostScatter {
+    passes: f64,
+    samples: f64,
+    seconds: f64,
+    /// Σ seconds²/samples.
+    squares: f64,
+}
+
+impl CostScatter {
+    fn add(&mut self, samples: u32, seconds: f64) {
+        let samples = f64::from(samples);
+        self.passes += 1.0;
+        self.samples += samples;
+        self.seconds += seconds;
+        self.squares += seconds * seconds / samples;
+    }
+
+    /// Standard error of the cost per sample, relative to it; infinite before the second pass.
+    fn relative_error(&self) -> f64 {
+        if self.passes < 2.0 || self.seconds <= 0.0 {
+            return f64::INFINITY;
+        }
+        let scatter = (self.squares - self.seconds * self.seconds / self.samples).max(0.0);
+        (scatter / (self.passes - 1.0) / self.samples).sqrt() * self.samples / self.seconds
+    }
 }
 
 impl Active {
     pub fn finished(&self) -> bool {
-        self.limits.0.is_some_and(|spp| self.spp >= spp)
-            || self.limits.1.is_some_and(|seconds| self.seconds >= f64::from(seconds))
+        let Limits { spp, seconds, cpu_seconds, relative_error } = self.limits;
+        spp.is_some_and(|spp| self.spp >= spp)
+            || seconds.is_some_and(|seconds| self.seconds >= f64::from(seconds))
+            || cpu_seconds.is_some_and(|seconds| self.cpu_seconds >= f64::from(seconds))
+            || relative_error.is_some_and(|error| self.relative_error <= f64::from(error))
     }
 
     pub fn runnable(&self) -> bool {
@@ -57,12 +90,7 @@ impl Active {
     }
 
     pub fn work(&self) -> Work<'_> {
-        Work {
-            scene: &self.scene,
-            kernel: self.kernel,
-            settings: &self.settings,
-            wanted: Wanted::new(&self.current, self.generation),
-        }
+        Work { probe: &self.probe, wanted: Wanted::new(&self.current, self.generation) }
     }
 
     /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.
@@ -70,70 +98,78 @@ impl Active {
         if self.paused || self.spp == 0 {
             return 1;
         }
+        let left = |limit: Option<f32>, had: f64| {
+            let per_sample = had / f64::from(self.spp);
+            limit.map_or(f64::INFINITY, |limit| (f64::from(limit) - had) / per_sample)
+        };
         let per_sample = self.seconds / f64::from(self.spp);
-        let left = self.limits.1.map_or(f64::INFINITY, |s| f64::from(s) - self.seconds);
-        let fitting = (PASS_SECONDS.min(left) / per_sample).clamp(1.0, 4096.0) as u32;
-        let count = fitting.min(self.last_pass * 2).max(1);
-        self.limits.0.map_or(count, |spp| count.min(spp - self.spp))
+        let fitting = (PASS_SECONDS / per_sample)
+            .min(left(self.limits.seconds, self.seconds))
+            .min(left(self.limits.cpu_seconds, self.cpu_seconds))
+            .clamp(1.0, 4096.0) as u32;
+        let count = fitting.min(self.last_pass.saturating_mul(2)).max(1);
+        self.limits.spp.map_or(count, |spp| count.min(spp - self.spp))
     }
 
-    pub fn snapshot(&self) -> Snapshot {
-        let (mean, standard_error) = self.pool.install(|| Snapshot::images(&self.film));
-        self.with_images(mean, standard_error, None)
+    pub fn snapshot(&mut self) -> Snapshot {
+        let images = self.pool.install(|| Images::of(&self.film));
+        let snapshot = self.with_images(images, None);
+        if self.limits.relative_error.is_some() {
+            self.relative_error = snapshot.relative_error();
+        }
+        snapshot
     }
 
-    pub fn with_images(
-        &self,
-        mean: Vec<[f32; 3]>,
-        standard_error: Vec<[f32; 3]>,
-        coarse: Option<u32>,
-    ) -> Snapshot {
+    pub fn with_images(&self, images: Images, coarse: Option<u32>) -> Snapshot {
         Snapshot {
             generation: self.generation,
             width: self.film.width,
             height: self.film.height,
-            mean,
-            standard_error,
+            mean: images.mean,
+            standard_error: images.standard_error,
+            noise: images.noise,
             spp: self.spp,
             coarse,
             seconds: self.seconds,
             cpu_seconds: self.cpu_seconds,
             tally: self.tally.clone(),
             threads: self.pool.current_num_threads(),
+            cost_error: self.cost.relative_error(),
+            target: self.target.clone(),
         }
     }
 
     /// A view that has not rendered yet.
     pub fn new(
         (generation, current): (u64, Arc<AtomicU64>),
-        scene: Arc<Scene>,
-        (kernel, settings): (Kernel, Settings),
+        probe: Probe,
         pool: Arc<ThreadPool>,
-        limits: &RenderDoc,
+        limits: Limits,
     ) -> Self {
         Self {
             generation,
             current,
-            kernel,
-            settings,
+            film: Film::new(probe.scene.width as usize, probe.scene.height as usize),
+            probe,
             pool,
-            film: Film::new(scene.width as usize, scene.height as usize),
-            scene,
             spp: 0,
-            limits: (limits.spp, limits.seconds),
+            limits,
+            role: Role::Contender,
+            target: String::new(),
             paused: false,
             steps: 0,
             last_pass: 1,
             seconds: 0.0,
             cpu_seconds: 0.0,
-            turn: 0.0,
             tally: Tally::default(),
+            relative_error: f64::INFINITY,
+            cost: CostScatter::default(),
         }
     }
 
-    /// Runs one pass; false if it was cancelled, which leaves the view unusable.
-    pub fn advance(&mut self, rows_per_task: NonZeroUsize) -> bool {
-        let count = self.next_samples();
+    /// Runs one pass of at most `most` samples; false if it was cancelled, which leaves the view unusable.
+    pub fn advance(&mut self, rows_per_task: NonZeroUsize, most: u32) -> bool {
+        let count = self.next_samples().min(most).max(1);
         let began = Instant::now();
         let first = u64::from(self.spp);
         let samples = first..first + u64::from(count);
@@ -147,8 +183,28 @@ impl Active {
         self.steps = self.steps.saturating_sub(1);
         self.seconds += began.elapsed().as_secs_f64();
         self.cpu_seconds += cost.cpu_seconds;
-        self.turn += cost.cpu_seconds;
+        self.cost.add(count, cost.cpu_seconds);
         self.tally.merge(&cost.tally);
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CostScatter;
+
+    #[test]
+    fn the_cost_of_even_passes_is_known_and_that_of_uneven_ones_is_not() {
+        let scatter = |passes: &[(u32, f64)]| {
+            let mut cost = CostScatter::default();
+            for (samples, seconds) in passes {
+                cost.add(*samples, *seconds);
+            }
+            cost.relative_error()
+        };
+        assert!(scatter(&[(4, 1.0)]).is_infinite());
+        assert!(scatter(&[(1, 0.5), (2, 1.0), (4, 2.0)]) < 1e-6);
+        // Two passes of 1 and 3 seconds: mean 2 ± 1.
+        assert!((scatter(&[(1, 1.0), (1, 3.0)]) - 0.5).abs() < 1e-12);
     }
 }

@@ -3,8 +3,10 @@
 use super::active::Active;
 use super::keeper::Keeper;
 use super::mailbox::{Command, Mailbox};
-use super::{Job, Status, ViewId, preview};
+use super::turns::Turns;
+use super::{Job, Probe, Role, Status, ViewId, preview};
 use crate::estimator::{self, Settings};
+use crate::film::Images;
 use crate::io::Library;
 use crate::transport::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,6 +29,7 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
         keeper: Keeper::new(library),
         views: BTreeMap::new(),
         paused: BTreeSet::new(),
+        turns: Turns::default(),
     };
     loop {
         let idle = !coordinator.views.values().any(Active::runnable);
@@ -44,6 +47,7 @@ struct Coordinator<'a> {
     views: BTreeMap<ViewId, Active>,
     /// Views that the user has paused; they stay so through edits and failures.
     paused: BTreeSet<ViewId>,
+    turns: Turns,
 }
 
 impl Coordinator<'_> {
@@ -54,7 +58,8 @@ impl Coordinator<'_> {
                 self.views.remove(&view);
                 self.paused.remove(&view);
             }
-            Command::Limits { view, spp, seconds } => self.change(view, |v| v.limits = (spp, seconds)),
+            Command::Limits { view, limits } => self.change(view, |v| v.limits = limits),
+            Command::Fairness(fairness) => self.turns.fairness = fairness,
             Command::Pause { view, paused } => {
                 if paused {
                     self.paused.insert(view);
@@ -77,13 +82,16 @@ impl Coordinator<'_> {
         }
     }
 
-    /// Gives the next pass to the view that has had the least time since it came.
+    /// Gives the next pass to the view whose turn it is.
     fn advance_next(&mut self) {
-        let runnable = self.views.iter_mut().filter(|(_, v)| v.runnable());
-        let Some((id, view)) = runnable.min_by(|(_, a), (_, b)| a.turn.total_cmp(&b.turn)) else { return };
-        let id = *id;
+        let Some((id, most)) = self.turns.next(&self.views) else { return };
+        let contenders = self.views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
+        let Some(view) = self.views.get_mut(&id) else { return };
+        let before = view.cpu_seconds;
         // A panicking worker must not take the session with it.
-        let pass = catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK).then(|| view.snapshot())));
+        let pass =
+            catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK, most).then(|| view.snapshot())));
+        self.turns.note(view.role, view.cpu_seconds - before, contenders);
         match pass {
             Ok(Some(snapshot)) => self.mailbox.publish_snapshot(id, snapshot, view.status()),
             Ok(None) => {
@@ -113,7 +121,7 @@ impl Coordinator<'_> {
             Ok(view) => view,
             Err(message) => return self.fail(id, generation, message),
         };
-        self.mailbox.publish_built(id, generation, &view.scene, view.status());
+        self.mailbox.publish_built(id, &view);
         if job.preview {
             let shown = catch_unwind(AssertUnwindSafe(|| self.show_preview(id, &view)));
             if let Err(panic) = shown {
@@ -133,14 +141,10 @@ impl Coordinator<'_> {
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
         let current = self.mailbox.current(id);
-        let mut view = Active::new((generation, current), scene, (entry.kernel, settings), pool, &doc.render);
+        let probe = Probe { scene, kernel: entry.kernel, settings };
+        let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
+        (view.role, view.target) = (job.role, self.keeper.target(doc));
         view.paused = self.paused.contains(&id);
-        // Level with the views that run already: a newcomer takes turns with them at once.
-        view.turn =
-            self.views.values().filter(|v| v.runnable()).map(|v| v.turn).fold(f64::INFINITY, f64::min);
-        if view.turn.is_infinite() {
-            view.turn = 0.0;
-        }
         Ok(view)
     }
 
@@ -152,8 +156,9 @@ impl Coordinator<'_> {
             let began = Instant::now();
             let image = view.pool.install(|| preview::render(&view.work(), stride));
             let Some(image) = image else { return };
-            let unknown = vec![[f32::INFINITY; 3]; image.len()];
-            let snapshot = view.with_images(image, unknown, Some(stride as u32));
+            let standard_error = vec![[f32::INFINITY; 3]; image.len()];
+            let images = Images { mean: image, standard_error, noise: Vec::new() };
+            let snapshot = view.with_images(images, Some(stride as u32));
             self.mailbox.publish_snapshot(id, snapshot, view.status());
             let whole_pass = began.elapsed().as_secs_f64() * (stride * stride) as f64;
             if stride <= 2 || whole_pass < FINE_PREVIEW_SECONDS {
@@ -192,15 +197,18 @@ mod tests {
         let mut doc = SceneDoc::default();
         (doc.film.width, doc.film.height) = (3, 2);
         let id = ViewId(0);
-        let generation = mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false });
+        let generation =
+            mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false, role: Role::Contender });
         let mut keeper = Keeper::new(Library::default());
         let scene = keeper.scene(&doc).unwrap();
         let pool = keeper.pool(Some(2)).unwrap();
         let settings = Settings::new(&doc.estimator, 0);
         let current = mailbox.current(id);
-        let view = Active::new((generation, current), scene, (kernel, settings), pool, &doc.render);
+        let probe = Probe { scene, kernel, settings };
+        let view = Active::new((generation, current), probe, pool, doc.render.limits());
         let views = BTreeMap::from([(id, view)]);
-        (Coordinator { mailbox, keeper, views, paused: BTreeSet::new() }, id)
+        let turns = Turns::default();
+        (Coordinator { mailbox, keeper, views, paused: BTreeSet::new(), turns }, id)
     }
 
     #[test]
@@ -212,7 +220,7 @@ mod tests {
         assert!(message.contains("no estimate for pixel"), "{message}");
         // Nothing is left to advance, and the next job starts as ever.
         coordinator.advance_next();
-        let job = Job { doc: Arc::new(SceneDoc::default()), preview: false };
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: false, role: Role::Contender };
         let generation = mailbox.submit(id, job.clone());
         coordinator.start(id, generation, &job);
         assert_eq!(mailbox.state(id).status, Status::Rendering);
@@ -237,10 +245,15 @@ mod tests {
     #[test]
     fn a_start_that_nobody_waits_for_is_not_built() {
         let (mailbox, id) = (Mailbox::new(Box::new(|| {})), ViewId(0));
-        let job = Job { doc: Arc::new(SceneDoc::default()), preview: true };
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::Contender };
         let keeper = Keeper::new(Library::default());
-        let mut coordinator =
-            Coordinator { mailbox: &mailbox, keeper, views: BTreeMap::new(), paused: BTreeSet::new() };
+        let mut coordinator = Coordinator {
+            mailbox: &mailbox,
+            keeper,
+            views: BTreeMap::new(),
+            paused: BTreeSet::new(),
+            turns: Turns::default(),
+        };
         let superseded = mailbox.submit(id, job.clone());
         let removed = mailbox.submit(id, job.clone());
         coordinator.start(id, superseded, &job);

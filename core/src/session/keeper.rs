@@ -1,7 +1,7 @@
 //! What the coordinator keeps between jobs: files, the frozen scene, threads.
 
 use crate::io::Library;
-use crate::scene::{Scene, SceneDoc, build};
+use crate::scene::{MAX_VIEWS, Scene, SceneDoc, build};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,27 +11,44 @@ use std::time::SystemTime;
 pub(super) struct Keeper {
     resources: Library,
     pools: BTreeMap<usize, Arc<ThreadPool>>,
-    /// The newest frozen scene, with the document and the times of the files that it came from.
-    frozen: Option<(SceneDoc, Vec<Option<SystemTime>>, Arc<Scene>)>,
+    /// The newest frozen scenes, the newest last.
+    frozen: Vec<Frozen>,
 }
+
+/// A frozen scene with the document and the times of the files that it came from.
+struct Frozen {
+    doc: SceneDoc,
+    stamps: Vec<Option<SystemTime>>,
+    scene: Arc<Scene>,
+}
+
+/// Views of one scene may each have a majorant or camera of their own.
+const KEPT: usize = MAX_VIEWS + 1;
 
 impl Keeper {
     pub fn new(resources: Library) -> Self {
-        Self { resources, pools: BTreeMap::new(), frozen: None }
+        Self { resources, pools: BTreeMap::new(), frozen: Vec::new() }
     }
 
     /// Freezes a document, or finds it frozen already.
     pub fn scene(&mut self, doc: &SceneDoc) -> Result<Arc<Scene>, String> {
         let (key, stamps) = (doc.scene_part(), self.resources.stamps(doc));
-        if let Some((known, known_stamps, scene)) = &self.frozen
-            && *known == key
-            && *known_stamps == stamps
-        {
-            return Ok(Arc::clone(scene));
+        if let Some(known) = self.frozen.iter().find(|f| f.doc == key && f.stamps == stamps) {
+            return Ok(Arc::clone(&known.scene));
         }
         let scene = Arc::new(build(doc, &mut self.resources).map_err(|e| e.to_string())?);
-        self.frozen = Some((key, stamps, Arc::clone(&scene)));
+        // Those that no view renders any more go first.
+        if self.frozen.len() >= KEPT {
+            self.frozen.retain(|f| Arc::strong_count(&f.scene) > 1);
+            self.frozen.truncate(KEPT - 1);
+        }
+        self.frozen.push(Frozen { doc: key, stamps, scene: Arc::clone(&scene) });
         Ok(scene)
+    }
+
+    /// Names the image that a document's unbiased estimates converge to.
+    pub fn target(&mut self, doc: &SceneDoc) -> String {
+        self.resources.fingerprint(doc)
     }
 
     /// A pool of worker threads; one per core if no number is given.

@@ -1,8 +1,9 @@
 //! What callers and the coordinator share: commands in, states out, one cancel flag per view.
 
+use super::active::Active;
 use super::{Job, Status, ViewId, ViewState};
 use crate::film::Snapshot;
-use crate::scene::Scene;
+use crate::scene::{Fairness, Limits};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -12,7 +13,8 @@ use std::time::Instant;
 #[derive(Debug)]
 pub(super) enum Command {
     Start { view: ViewId, generation: u64, job: Job },
-    Limits { view: ViewId, spp: Option<u32>, seconds: Option<f32> },
+    Limits { view: ViewId, limits: Limits },
+    Fairness(Fairness),
     Pause { view: ViewId, paused: bool },
     Step { view: ViewId },
     Remove { view: ViewId },
@@ -37,6 +39,7 @@ impl Public {
                 notices: Vec::new(),
                 scene: None,
                 first_picture_seconds: None,
+                probe: None,
             },
             job: None,
             submitted: Instant::now(),
@@ -107,10 +110,9 @@ impl Mailbox {
                     public.current.store(u64::MAX, Ordering::Release);
                 }
             }
-            Command::Limits { view, spp, seconds } => {
+            Command::Limits { view, limits } => {
                 if let Some(job) = inner.views.get_mut(view).and_then(|p| p.job.as_mut()) {
-                    let doc = Arc::make_mut(&mut job.doc);
-                    (doc.render.spp, doc.render.seconds) = (*spp, *seconds);
+                    Arc::make_mut(&mut job.doc).render.set_limits(*limits);
                 }
             }
             _ => {}
@@ -167,11 +169,12 @@ impl Mailbox {
     }
 
     /// Publishes what freezing the scene has found.
-    pub fn publish_built(&self, view: ViewId, generation: u64, scene: &Scene, status: Status) {
-        self.publish(view, generation, |p| {
-            p.state.status = status;
-            p.state.notices.clone_from(&scene.notices);
-            p.state.scene = Some(scene.info.clone());
+    pub fn publish_built(&self, view: ViewId, active: &Active) {
+        self.publish(view, active.generation, |p| {
+            p.state.status = active.status();
+            p.state.notices.clone_from(&active.probe.scene.notices);
+            p.state.scene = Some(active.probe.scene.info.clone());
+            p.state.probe = Some(active.probe.clone());
         });
     }
 
@@ -190,12 +193,13 @@ impl Mailbox {
 mod tests {
     use super::*;
     use crate::scene::SceneDoc;
+    use crate::session::Role;
     use std::sync::atomic::AtomicBool;
 
     fn job(seed: u64) -> Job {
         let mut doc = SceneDoc::default();
         doc.render.seed = seed;
-        Job { doc: Arc::new(doc), preview: false }
+        Job { doc: Arc::new(doc), preview: false, role: Role::Contender }
     }
 
     #[test]

@@ -15,11 +15,14 @@ mod keeper;
 mod mailbox;
 mod pass;
 mod preview;
+mod probe;
+mod turns;
 
 use crate::film::Snapshot;
 use crate::io::Library;
-use crate::scene::{SceneDoc, SceneInfo};
+use crate::scene::{Fairness, Limits, SceneDoc, SceneInfo};
 use mailbox::{Command, Mailbox};
+pub use probe::{PixelSample, Probe};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
@@ -35,6 +38,18 @@ pub struct Job {
     pub doc: Arc<SceneDoc>,
     /// Whether a coarse picture comes before the first pass.
     pub preview: bool,
+    /// Whether it competes with the others, or is rendered beside them.
+    pub role: Role,
+}
+
+/// How a view takes turns with the others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Role {
+    /// Gets as much as every other contender, by the session's [`Fairness`].
+    #[default]
+    Contender,
+    /// Gets about one contender's share of the time, and all of it once the contenders are done.
+    Background,
 }
 
 /// What a view is doing.
@@ -69,6 +84,8 @@ pub struct ViewState {
     pub scene: Option<SceneInfo>,
     /// Seconds from the newest submission to its first picture.
     pub first_picture_seconds: Option<f64>,
+    /// Traces any of its paths again.
+    pub probe: Option<Probe>,
 }
 
 /// Progressive renders in the background. Dropping it cancels the work, waits until it has stopped, and
@@ -99,8 +116,13 @@ impl Session {
     }
 
     /// Raises or lowers a view's limits without starting over.
-    pub fn set_limits(&self, view: ViewId, spp: Option<u32>, seconds: Option<f32>) {
-        self.mailbox.send(Command::Limits { view, spp, seconds });
+    pub fn set_limits(&self, view: ViewId, limits: Limits) {
+        self.mailbox.send(Command::Limits { view, limits });
+    }
+
+    /// What contenders get as much of as each other: time, unless it is set.
+    pub fn set_fairness(&self, fairness: Fairness) {
+        self.mailbox.send(Command::Fairness(fairness));
     }
 
     /// Starts a view over with the same job.

@@ -1,8 +1,8 @@
 //! One pass: every pixel of a film gets some more samples.
 
-use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
+use super::Probe;
+use crate::estimator::PathEstimate;
 use crate::film::{Film, NonFinite, Pixel, Tally};
-use crate::scene::Scene;
 use crate::transport::Wanted;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
@@ -24,25 +24,25 @@ impl Cost {
     }
 }
 
-/// Everything that the paths of one submission are traced with.
+/// Everything that the paths of one submission are traced with, for as long as it is wanted.
 #[derive(Clone, Copy)]
 pub(super) struct Work<'a> {
-    pub scene: &'a Scene,
-    pub kernel: Kernel,
-    pub settings: &'a Settings,
+    pub probe: &'a Probe,
     pub wanted: Wanted<'a>,
 }
+
+/// Samples of a row that are traced before any of them is added to the film.
+const BUFFERED_SAMPLES: u64 = 16;
 
 impl Work<'_> {
     pub fn path(&self, x: usize, y: usize, sample: u64) -> PathEstimate {
         // Film sizes fit 32 bits by validation.
-        let at = PathIndex { x: x as u32, y: y as u32, sample };
-        (self.kernel)(self.scene, self.settings, at, self.wanted)
+        self.probe.path(x as u32, y as u32, sample, self.wanted)
     }
 
     /// Adds samples to every pixel of a film; `None` if it was cancelled, which leaves the film
     /// unusable. A task is a band of so many rows, owned by one thread at a time; the film does not
-    /// depend on how many.
+    /// depend on how many. Only tracing is billed: the film's statistics are nobody's cost.
     pub fn add_samples(
         &self,
         film: &mut Film,
@@ -52,50 +52,66 @@ impl Work<'_> {
         let (width, rows) = (film.width, rows_per_task.get());
         let bands = film.pixels.par_chunks_mut(width * rows).enumerate().with_max_len(1);
         let costs: Option<Vec<Cost>> = bands
-            .map(|(band, pixels)| {
-                let clock = ThreadTime::now();
-                let mut tally = Tally::default();
-                for (i, pixel) in pixels.iter_mut().enumerate() {
-                    self.add_to_pixel((i % width, band * rows + i / width), pixel, samples, &mut tally);
-                    // Asked after each pixel: the estimate of an unwanted path must not be kept.
-                    if !self.wanted.yes() {
-                        return None;
-                    }
+            .map_init(Vec::new, |traced, (band, pixels)| {
+                let mut cost = Cost::default();
+                for (i, row) in pixels.chunks_mut(width).enumerate() {
+                    self.add_to_row(band * rows + i, row, samples, traced, &mut cost)?;
                 }
-                Some(Cost { tally, cpu_seconds: clock.elapsed().as_secs_f64() })
+                Some(cost)
             })
             .collect();
         // Merged from the top, so that the located samples do not depend on threads either.
         costs.map(|costs| costs.into_iter().fold(Cost::default(), Cost::merge))
     }
 
-    fn add_to_pixel(
+    fn add_to_row(
         &self,
-        (x, y): (usize, usize),
-        pixel: &mut Pixel,
+        y: usize,
+        row: &mut [Pixel],
         samples: &Range<u64>,
-        tally: &mut Tally,
-    ) {
-        for sample in samples.clone() {
-            let estimate = self.path(x, y, sample);
-            tally.paths += 1;
-            tally.lookups += estimate.lookups;
-            if estimate.rgb.is_finite() {
-                pixel.add(estimate.rgb.to_array());
-            } else {
-                tally.reject(NonFinite { x: x as u32, y: y as u32, sample });
+        traced: &mut Vec<PathEstimate>,
+        cost: &mut Cost,
+    ) -> Option<()> {
+        let mut first = samples.start;
+        while first < samples.end {
+            let some = first..samples.end.min(first + BUFFERED_SAMPLES);
+            let clock = ThreadTime::now();
+            traced.clear();
+            for x in 0..row.len() {
+                traced.extend(some.clone().map(|sample| self.path(x, y, sample)));
+                // Asked after each pixel: the estimate of an unwanted path must not be kept.
+                if !self.wanted.yes() {
+                    return None;
+                }
             }
+            cost.cpu_seconds += clock.elapsed().as_secs_f64();
+            let each = (some.end - some.start) as usize;
+            for (x, (pixel, estimates)) in row.iter_mut().zip(traced.chunks(each)).enumerate() {
+                for (sample, estimate) in some.clone().zip(estimates) {
+                    cost.tally.paths += 1;
+                    cost.tally.lookups += estimate.lookups;
+                    pixel.lookups += estimate.lookups;
+                    if estimate.rgb.is_finite() {
+                        pixel.add(estimate.rgb.to_array());
+                    } else {
+                        cost.tally.reject(NonFinite { x: x as u32, y: y as u32, sample });
+                    }
+                }
+            }
+            first = some.end;
         }
+        Some(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::estimator;
+    use crate::estimator::{self, Kernel, PathIndex, Settings};
     use crate::io::Library;
-    use crate::scene::{SceneDoc, build};
+    use crate::scene::{Scene, SceneDoc, build};
     use glam::Vec3;
+    use std::sync::Arc;
 
     const SAMPLES: u64 = 6;
 
@@ -111,7 +127,8 @@ mod tests {
         (doc.film.width, doc.film.height) = (7, 11);
         let scene = build(&doc, &mut Library::default()).unwrap();
         let settings = Settings::new(&doc.estimator, 3);
-        let work = Work { scene: &scene, kernel, settings: &settings, wanted: Wanted::ALWAYS };
+        let probe = Probe { scene: Arc::new(scene), kernel, settings };
+        let work = Work { probe: &probe, wanted: Wanted::ALWAYS };
         let mut film = Film::new(7, 11);
         let mut tally = Tally::default();
         let mut first = 0;

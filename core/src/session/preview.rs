@@ -9,7 +9,7 @@ const PREVIEW_SAMPLE: u64 = u64::MAX;
 /// Renders one path at the middle of every `stride × stride` block and spreads it over the block;
 /// `None` if it was cancelled.
 pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
-    let (width, height) = (work.scene.width as usize, work.scene.height as usize);
+    let (width, height) = (work.probe.scene.width as usize, work.probe.scene.height as usize);
     let mut image = vec![[0.0f32; 3]; width * height];
     let bands = image.par_chunks_mut(width * stride).enumerate().with_max_len(1);
     let done = bands.try_for_each(|(band, rows)| {

@@ -4,6 +4,7 @@
 //! Lengths are in scene units, angles in degrees, wavelengths in nanometres, extinction per scene unit.
 
 mod camera;
+mod compare;
 mod light;
 mod medium;
 mod object;
@@ -13,10 +14,13 @@ pub use crate::film::display::{ToneCurve, ViewDoc};
 pub use crate::medium::{MajorantDoc, WhenExceeded};
 pub use crate::phase::PhaseDoc;
 pub use camera::{CameraDoc, FilmDoc};
+pub use compare::{
+    Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
+};
 pub use light::LightDoc;
 pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
-pub use render::{Absorption, EstimatorDoc, Mode, RenderDoc};
+pub use render::{Absorption, EstimatorDoc, Limits, Mode, RenderDoc};
 
 use serde::{Deserialize, Serialize};
 
@@ -59,6 +63,13 @@ pub struct SceneDoc {
     /// How the image is shown; never changes the estimate.
     #[serde(default)]
     pub view: ViewDoc,
+    /// Further views of the scene, side by side.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub compare: CompareDoc,
+}
+
+fn is_default(compare: &CompareDoc) -> bool {
+    *compare == CompareDoc::default()
 }
 
 impl Default for SceneDoc {
@@ -75,11 +86,34 @@ impl Default for SceneDoc {
             estimator: EstimatorDoc::default(),
             render: RenderDoc { spp: Some(1024), ..RenderDoc::default() },
             view: ViewDoc::default(),
+            compare: CompareDoc::default(),
         }
     }
 }
 
 impl SceneDoc {
+    /// Every file that the document names, those that are part of the program too; empty names are still to
+    /// be filled in and left out.
+    pub fn files_mut(&mut self) -> Vec<&mut String> {
+        let mut files = Vec::new();
+        if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut self.medium.density {
+            files.push(&mut grid.file);
+        }
+        if let Some(grid) = &mut self.medium.albedo_grid {
+            files.push(&mut grid.file);
+        }
+        for light in &mut self.lights {
+            if let LightDoc::EnvironmentMap { file, .. } = light {
+                files.push(file);
+            }
+        }
+        if let ReferenceDoc::File { file } = &mut self.compare.reference {
+            files.push(file);
+        }
+        files.retain(|file| !file.is_empty());
+        files
+    }
+
     /// The part that the frozen scene depends on, everything else at its default: two documents that
     /// agree in it share one frozen scene.
     #[must_use]
@@ -103,8 +137,7 @@ impl SceneDoc {
             render: RenderDoc {
                 seed: self.render.seed,
                 threads: self.render.threads,
-                spp: None,
-                seconds: None,
+                ..RenderDoc::default()
             },
             ..self.scene_part()
         }

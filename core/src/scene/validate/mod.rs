@@ -1,5 +1,7 @@
 //! Refuses documents that make no sense, naming the key, the value and the cure.
 
+mod compare;
+
 use super::{LightDoc, MediumDoc, ObjectDoc, PhaseDoc, SceneDoc};
 use crate::spectrum::SpectrumDoc;
 use glam::Vec3;
@@ -86,6 +88,13 @@ impl Checker {
 /// [`crate::estimator::validate`]'s to say.
 #[must_use]
 pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
+    let mut c = Checker { problems: scene_problems(doc) };
+    compare::compare(&mut c, doc);
+    c.problems
+}
+
+/// Every problem of the scene as its own view sees it.
+fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
     let mut c = Checker::default();
     let pixels = u64::from(doc.film.width) * u64::from(doc.film.height);
     for (key, side) in [("film.width", doc.film.width), ("film.height", doc.film.height)] {
@@ -138,6 +147,16 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
         doc.render.seconds.is_none_or(|s| s > 0.0 && s.is_finite()),
         "render.seconds",
         "must be positive: leave it out for no limit",
+    );
+    c.check(
+        doc.render.cpu_seconds.is_none_or(|s| s > 0.0 && s.is_finite()),
+        "render.cpu_seconds",
+        "must be positive: leave it out for no limit",
+    );
+    c.check(
+        doc.render.relative_error.is_none_or(|e| e > 0.0 && e.is_finite()),
+        "render.relative_error",
+        "must be positive: 0.01 is one percent of the mean; leave it out for no limit",
     );
     c.check(
         doc.render.threads.is_none_or(|t| (1..=1024).contains(&t)),

@@ -1,0 +1,51 @@
+//! Checks of a comparison.
+
+use super::{Checker, Problem, scene_problems};
+use crate::scene::{MAX_VIEWS, ReferenceDoc, SceneDoc};
+
+pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
+    let compare = &doc.compare;
+    let count = doc.view_count();
+    c.check(count <= MAX_VIEWS, "compare.views", format!("holds more than {} further views", MAX_VIEWS - 1));
+    // What a view has of its own is held to what holds for the scene.
+    let known = scene_problems(doc);
+    for view in 1..count {
+        let Some(seen) = doc.view_doc(view) else { continue };
+        for problem in scene_problems(&seen).into_iter().filter(|p| !known.contains(p)) {
+            c.problems.push(Problem { path: own_path(view, &problem.path), ..problem });
+        }
+    }
+    c.check(
+        compare.baseline < count,
+        "compare.baseline",
+        format!("is {}: views count from 0", compare.baseline),
+    );
+    if let ReferenceDoc::View { view } = compare.reference {
+        c.check(view < count, "compare.reference.view", format!("is {view}: views count from 0"));
+    }
+    if let ReferenceDoc::Render { spp, relative_error, .. } = compare.reference {
+        c.check(
+            spp.is_none_or(|spp| spp > 0 && spp <= 1 << 30),
+            "compare.reference.spp",
+            "must lie between 1 and 2^30: leave it out for no limit",
+        );
+        c.check(
+            relative_error.is_none_or(|e| e > 0.0 && e.is_finite()),
+            "compare.reference.relative_error",
+            "must be positive: 0.01 is one percent of the mean",
+        );
+    }
+    if let Some([x0, y0, x1, y1]) = compare.region {
+        c.check(
+            x0 < x1 && y0 < y1,
+            "compare.region",
+            "holds no pixel: write [x0, y0, x1, y1] with x0 < x1, y0 < y1",
+        );
+    }
+}
+
+/// Where a view keeps what the scene keeps at `path`.
+fn own_path(view: usize, path: &str) -> String {
+    let path = path.strip_prefix("medium.").or_else(|| path.strip_prefix("render.")).unwrap_or(path);
+    format!("compare.views[{}].{path}", view - 1)
+}

@@ -1,0 +1,55 @@
+//! Any path of a view, traced again: random numbers are a function of (seed, pixel, sample).
+
+use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
+use crate::scene::Scene;
+use crate::transport::Wanted;
+use std::fmt;
+use std::sync::Arc;
+
+/// Everything that the paths of one submission are traced with; cheap to clone.
+#[derive(Clone)]
+pub struct Probe {
+    pub(super) scene: Arc<Scene>,
+    pub(super) kernel: Kernel,
+    pub(super) settings: Settings,
+}
+
+impl fmt::Debug for Probe {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_struct("Probe").field("settings", &self.settings).finish_non_exhaustive()
+    }
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelSample {
+    /// Linear sRGB.
+    pub rgb: [f32; 3],
+    /// Evaluations of the medium's coefficients.
+    pub lookups: u64,
+}
+
+impl Probe {
+    /// The path of sample number `sample` of a pixel, exactly as the film has received it.
+    pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
+        (self.kernel)(&self.scene, &self.settings, PathIndex { x, y, sample }, wanted)
+    }
+
+    /// The first `count` samples of a pixel; none if the pixel is outside of the film or the work is not
+    /// wanted any more.
+    #[must_use]
+    pub fn samples(&self, (x, y): (u32, u32), count: u64, wanted: Wanted<'_>) -> Vec<PixelSample> {
+        let mut samples = Vec::new();
+        if x >= self.scene.width || y >= self.scene.height {
+            return samples;
+        }
+        for sample in 0..count {
+            let path = self.path(x, y, sample, wanted);
+            if !wanted.yes() {
+                return Vec::new();
+            }
+            samples.push(PixelSample { rgb: path.rgb.to_array(), lookups: path.lookups });
+        }
+        samples
+    }
+}
