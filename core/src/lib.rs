@@ -4,6 +4,7 @@
 //!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session
 //!                                                          ▲
 //!                                         io (scenes, volumes, pictures, results)
+//!   film ─► measure (errors of a picture against a reference)
 //! ```
 //!
 //! A [`scene::SceneDoc`] is what people edit; [`scene::build`] freezes it into a [`scene::Scene`]; a
@@ -17,6 +18,7 @@ pub mod film;
 pub mod io;
 pub mod light;
 pub mod math;
+pub mod measure;
 pub mod medium;
 pub mod phase;
 pub mod scene;
@@ -35,7 +37,7 @@ mod tests {
         &["spectrum"],
         &["phase", "surface", "film"],
         &["medium", "light"],
-        &["scene"],
+        &["scene", "measure"],
         &["transport"],
         &["estimator"],
         &["io"],

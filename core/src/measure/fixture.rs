@@ -1,0 +1,60 @@
+//! Two pictures and what NumPy and the authors of FLIP say of them (`tests/measures`).
+
+// The layer test looks no further than this: what makes a test may come from anywhere.
+#[cfg(test)]
+use crate::io::volume::{Limits, read_npy_bytes};
+
+use super::{Picture, Reference, Region};
+
+/// A stored array's values.
+pub(super) fn values(bytes: &[u8]) -> Vec<f32> {
+    read_npy_bytes(bytes, "fixture", &Limits::default()).unwrap().values
+}
+
+fn colours(bytes: &[u8]) -> Vec<[f32; 3]> {
+    values(bytes).chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()
+}
+
+pub(super) struct Fixture {
+    pub picture: Vec<[f32; 3]>,
+    pub reference: Vec<[f32; 3]>,
+    pub stderr: Vec<[f32; 3]>,
+    /// What others found: `measures.json`.
+    pub truth: serde_json::Value,
+}
+
+impl Fixture {
+    pub(super) const WIDTH: usize = 48;
+    pub(super) const HEIGHT: usize = 36;
+    pub(super) const WHOLE: Region = Region { x0: 0, y0: 0, x1: Self::WIDTH, y1: Self::HEIGHT };
+
+    pub(super) fn load() -> Self {
+        Self {
+            picture: colours(include_bytes!("../../../tests/measures/picture.npy")),
+            reference: colours(include_bytes!("../../../tests/measures/reference.npy")),
+            stderr: colours(include_bytes!("../../../tests/measures/stderr.npy")),
+            truth: serde_json::from_str(include_str!("../../../tests/measures/measures.json")).unwrap(),
+        }
+    }
+
+    pub(super) fn region(&self) -> Region {
+        serde_json::from_value(self.truth["region_of"].clone()).unwrap()
+    }
+
+    pub(super) fn picture(&self) -> Picture<'_> {
+        of_size(&self.picture)
+    }
+
+    pub(super) fn reference(&self) -> Reference<'_> {
+        Reference { picture: of_size(&self.reference), standard_error: Some(&self.stderr) }
+    }
+
+    pub(super) fn expected(&self, of: &str, what: &str) -> f64 {
+        self.truth[of][what].as_f64().unwrap()
+    }
+}
+
+/// A picture of the fixture's size.
+pub(super) fn of_size(pixels: &[[f32; 3]]) -> Picture<'_> {
+    Picture { width: Fixture::WIDTH, height: Fixture::HEIGHT, pixels }
+}
