@@ -13,6 +13,7 @@
 //! Imports point one way, along the arrows. Nothing here knows a window.
 
 pub mod check;
+pub mod compare;
 pub mod estimator;
 pub mod film;
 pub mod io;
@@ -42,6 +43,7 @@ mod tests {
         &["estimator"],
         &["io"],
         &["session", "check"],
+        &["compare"],
     ];
 
     fn layer(room: &str) -> usize {

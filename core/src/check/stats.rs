@@ -44,7 +44,8 @@ pub fn power_t(dof: f64) -> f64 {
 }
 
 /// P(|T| > |t|) for Student's t.
-fn two_sided_p(t: f64, dof: f64) -> f64 {
+#[must_use]
+pub fn two_sided_p(t: f64, dof: f64) -> f64 {
     StudentsT::new(0.0, 1.0, dof).map_or(f64::NAN, |d| 2.0 * d.cdf(-t.abs()))
 }
 

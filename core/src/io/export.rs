@@ -53,6 +53,7 @@ pub fn write_exr(path: &Path, snapshot: &Snapshot, doc: &SceneDoc) -> std::resul
 pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
+        "target": snapshot.target,
         "scene": super::scene_file::to_toml(doc),
         "estimator": doc.estimator.id,
         "mode": doc.estimator.mode,

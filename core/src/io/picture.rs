@@ -68,11 +68,62 @@ pub fn read(path: &Path) -> Result<Picture, PictureError> {
     }
 }
 
-fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
+/// A picture with the standard errors and the metadata that [`super::export::write_exr`] adds.
+#[derive(Clone, Debug)]
+pub struct EstimatedPicture {
+    /// Mean linear RGB.
+    pub picture: Picture,
+    /// Its standard error, if the file holds it.
+    pub standard_error: Option<Vec<[f32; 3]>>,
+    /// The JSON that this program leaves.
+    pub metadata: Option<String>,
+}
+
+/// Reads an EXR with all that is known about its noise.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_estimate(path: &Path) -> Result<EstimatedPicture, PictureError> {
+    use exr::{AttributeValue, ReadChannels, ReadLayers, Text};
+    let file = path.display().to_string();
+    let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
+    if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
+        return Err(invalid("a reference has to be an EXR file".into()));
+    }
+    guard_exr(path, &file)?;
+    let image = exr::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .map_err(|e| invalid(e.to_string()))?;
+    let layer = image.layer_data;
+    let (width, height) = (layer.size.width(), layer.size.height());
+    let channel = |name: &str| {
+        let found = layer.channel_data.list.iter().find(|c| c.name == *name)?;
+        Some(found.sample_data.values_as_f32().collect::<Vec<f32>>())
+    };
+    let planes = |prefix: &str| {
+        let [r, g, b] = ["R", "G", "B"].map(|c| channel(&format!("{prefix}{c}")));
+        let (r, g, b) = (r?, g?, b?);
+        Some(r.into_iter().zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect::<Vec<_>>())
+    };
+    let pixels = planes("").ok_or_else(|| invalid("it has no channels named R, G and B".into()))?;
+    let metadata = match layer.attributes.other.get(&Text::from(super::export::METADATA)) {
+        Some(AttributeValue::Text(text)) => Some(text.to_string()),
+        _ => None,
+    };
+    let picture = Picture { width, height, pixels };
+    Ok(EstimatedPicture { picture, standard_error: planes("stderr."), metadata })
+}
+
+/// Refuses what would take too much memory. The header is read first: a damaged one can ask for any amount.
+fn guard_exr(path: &Path, file: &str) -> Result<(), PictureError> {
     use exr::*;
     let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
     std::fs::metadata(path).map_err(|source| PictureError::Io { file: file.to_owned(), source })?;
-    // The header is read first: a damaged one can ask for any amount of memory.
     let meta = MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
     for header in &meta.headers {
         if header.layer_size.area() > MAX_PIXELS || header.channels.list.is_empty() {
@@ -84,6 +135,13 @@ fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
             )));
         }
     }
+    Ok(())
+}
+
+fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
+    use exr::*;
+    let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
+    guard_exr(path, file)?;
     let image = read_first_rgba_layer_from_file(
         path,
         |size, _| Picture { width: size.width(), height: size.height(), pixels: vec![[0.0; 3]; size.area()] },

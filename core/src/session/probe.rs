@@ -4,6 +4,7 @@ use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
 use crate::transport::Wanted;
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Everything that the paths of one submission are traced with; cheap to clone.
@@ -35,15 +36,15 @@ impl Probe {
         (self.kernel)(&self.scene, &self.settings, PathIndex { x, y, sample }, wanted)
     }
 
-    /// The first `count` samples of a pixel; none if the pixel is outside of the film or the work is not
+    /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not
     /// wanted any more.
     #[must_use]
-    pub fn samples(&self, (x, y): (u32, u32), count: u64, wanted: Wanted<'_>) -> Vec<PixelSample> {
+    pub fn samples(&self, (x, y): (u32, u32), which: Range<u64>, wanted: Wanted<'_>) -> Vec<PixelSample> {
         let mut samples = Vec::new();
         if x >= self.scene.width || y >= self.scene.height {
             return samples;
         }
-        for sample in 0..count {
+        for sample in which {
             let path = self.path(x, y, sample, wanted);
             if !wanted.yes() {
                 return Vec::new();

@@ -1,0 +1,96 @@
+//! A comparison with everything that came of it so far: what rankings, maps and reports are made from.
+
+use super::curve::{Checkpoints, Point};
+use super::ranking::{self, Against, Contender, Question, Standing};
+use super::reference::Reference;
+use crate::film::Snapshot;
+use crate::measure::{Measure, Region};
+use crate::scene::{ReferenceDoc, SceneDoc};
+use std::borrow::Cow;
+use std::sync::Arc;
+
+/// One view with its newest picture.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// A, B, C, …
+    pub label: String,
+    /// What it renders, file names as the session got them.
+    pub doc: Arc<SceneDoc>,
+    /// Its newest picture.
+    pub snapshot: Arc<Snapshot>,
+    /// Earlier ones.
+    pub checkpoints: Arc<Checkpoints>,
+}
+
+/// See the [module](self).
+#[derive(Clone, Debug)]
+pub struct Experiment {
+    /// The scene with its comparison.
+    pub doc: Arc<SceneDoc>,
+    /// Its views that have a picture, each with its number from 0.
+    pub views: Vec<(usize, View)>,
+    /// What errors are measured against, if there is a picture of it.
+    pub reference: Option<Arc<Reference>>,
+}
+
+/// A, B, C, … for 0, 1, 2, …
+#[must_use]
+pub fn label(view: usize) -> String {
+    u8::try_from(view)
+        .ok()
+        .filter(|v| *v < 26)
+        .map_or_else(|| view.to_string(), |v| char::from(b'A' + v).to_string())
+}
+
+impl Experiment {
+    /// The region that numbers are about, if it is not the whole.
+    #[must_use]
+    pub fn region(&self) -> Option<Region> {
+        self.doc.compare.region.map(|[x0, y0, x1, y1]| {
+            let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|x| x as usize);
+            Region { x0, y0, x1, y1 }
+        })
+    }
+
+    fn contenders(&self) -> Vec<Contender<'_>> {
+        let views = self.views.iter().map(|(_, v)| v);
+        views.map(|v| Contender { label: &v.label, doc: &v.doc, snapshot: &v.snapshot }).collect()
+    }
+
+    fn question(&self, measures: Vec<&'static Measure>) -> Question<'_> {
+        let place = |number: usize| self.views.iter().position(|(n, _)| *n == number);
+        let reference_view = match self.doc.compare.reference {
+            ReferenceDoc::View { view } => place(view),
+            _ => None,
+        };
+        Question {
+            reference: self.reference.as_deref(),
+            reference_view,
+            baseline: place(self.doc.compare.baseline).unwrap_or(usize::MAX),
+            region: self.region(),
+            measures,
+        }
+    }
+
+    /// The table.
+    #[must_use]
+    pub fn rank(&self, measures: Vec<&'static Measure>) -> Vec<Standing> {
+        ranking::rank(&self.contenders(), &self.question(measures))
+    }
+
+    /// What a view is held against, by its number: the reference, or the mean of the other unbiased views.
+    #[must_use]
+    pub fn held_against(&self, view: usize) -> (Against, Option<Cow<'_, Reference>>) {
+        let place = self.views.iter().position(|(n, _)| *n == view).unwrap_or(usize::MAX);
+        ranking::opponent(&self.contenders(), place, &self.question(Vec::new()))
+    }
+
+    /// The error curve of a view against the reference; empty without one.
+    #[must_use]
+    pub fn curve(&self, view: usize, measure: &Measure) -> Vec<Point> {
+        let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v);
+        let (Some(found), (_, Some(held))) = (found, self.held_against(view)) else { return Vec::new() };
+        let kept = found.checkpoints.kept();
+        kept.iter().filter_map(|c| c.point(measure, &held, self.region())).collect()
+    }
+}

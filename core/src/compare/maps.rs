@@ -1,0 +1,334 @@
+//! Maps: one number per pixel of a view, with the range and colours that it is shown in.
+//!
+//! Colours are perceptually uniform and safe for colour-blind eyes: Viridis for amounts, red to blue around
+//! white for differences (red: too bright).
+
+use super::estimate::Estimate;
+use colorous::Gradient;
+use rayon::prelude::*;
+
+/// A kind of map.
+#[derive(Clone, Copy, Debug)]
+pub struct Map {
+    /// Name in files and on the command line.
+    pub id: &'static str,
+    /// Name on screen.
+    pub name: &'static str,
+    /// What a pixel shows, in one line. A is the view, R what it is held against, V a variance of the mean.
+    pub formula: &'static str,
+    /// How values become colours.
+    pub scale: Scale,
+    /// Whether it needs something to hold the view against.
+    pub needs_reference: bool,
+    value: fn(&Pixel) -> f32,
+}
+
+/// How values become colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// From 0.
+    Linear,
+    /// By decades.
+    Logarithmic,
+    /// Around 0, to both sides alike.
+    Diverging,
+    /// Around 0, from −`.0` to `.0` whatever the values are.
+    Fixed(f32),
+}
+
+/// One pixel of a view, and of what it is held against.
+struct Pixel {
+    mean: [f32; 3],
+    variance: [f32; 3],
+    grey_variance: f32,
+    samples: f32,
+    lookups: f32,
+    reference: [f32; 3],
+    reference_grey_variance: f32,
+}
+
+/// ε of relative errors: keeps dark pixels from deciding alone.
+const EPSILON: f32 = 0.01;
+
+impl Pixel {
+    fn differences(&self) -> [f32; 3] {
+        std::array::from_fn(|c| self.mean[c] - self.reference[c])
+    }
+}
+
+fn average(values: [f32; 3]) -> f32 {
+    values.iter().sum::<f32>() / 3.0
+}
+
+/// Every map, in the order that pickers show.
+pub static MAPS: &[Map] = &[
+    Map {
+        id: "error",
+        name: "Error ±",
+        formula: "mean over channels of A − R: red is too bright, blue too dark",
+        scale: Scale::Diverging,
+        needs_reference: true,
+        value: |p| average(p.differences()),
+    },
+    Map {
+        id: "absolute",
+        name: "Absolute error",
+        formula: "mean over channels of |A − R|",
+        scale: Scale::Linear,
+        needs_reference: true,
+        value: |p| average(p.differences().map(f32::abs)),
+    },
+    Map {
+        id: "relative",
+        name: "Relative error",
+        formula: "mean over channels of |A − R| / (|R| + 0.01)",
+        scale: Scale::Linear,
+        needs_reference: true,
+        value: |p| {
+            let d = p.differences();
+            average(std::array::from_fn(|c| d[c].abs() / (p.reference[c].abs() + EPSILON)))
+        },
+    },
+    Map {
+        id: "squared",
+        name: "Squared error",
+        formula: "mean over channels of (A − R)², by decades",
+        scale: Scale::Logarithmic,
+        needs_reference: true,
+        value: |p| average(p.differences().map(|d| d * d)),
+    },
+    Map {
+        id: "z",
+        name: "z: bias",
+        formula: "(A − R) / √(V_A + V_R) in grey: beyond ±4 is no chance; a bias shows as an even tint, without any reference of its own",
+        scale: Scale::Fixed(4.0),
+        needs_reference: true,
+        value: |p| {
+            let difference = average(p.differences());
+            let error = (p.grey_variance + p.reference_grey_variance).sqrt();
+            if difference == 0.0 { 0.0 } else { difference / error }
+        },
+    },
+    Map {
+        id: "variance",
+        name: "Variance",
+        formula: "variance of a single sample, mean over channels, by decades: what the estimator is, not how long it ran",
+        scale: Scale::Logarithmic,
+        needs_reference: false,
+        value: |p| average(p.variance) * p.samples,
+    },
+    Map {
+        id: "standard-error",
+        name: "Standard error",
+        formula: "√V_A, root mean square over channels, by decades",
+        scale: Scale::Logarithmic,
+        needs_reference: false,
+        value: |p| average(p.variance).sqrt(),
+    },
+    Map {
+        id: "samples",
+        name: "Samples",
+        formula: "samples in the mean; those that were not finite are left out",
+        scale: Scale::Linear,
+        needs_reference: false,
+        value: |p| p.samples,
+    },
+    Map {
+        id: "lookups",
+        name: "Look-ups",
+        formula: "evaluations of the medium's coefficients per path",
+        scale: Scale::Linear,
+        needs_reference: false,
+        value: |p| p.lookups / p.samples,
+    },
+];
+
+/// The map of that id.
+#[must_use]
+pub fn find(id: &str) -> Option<&'static Map> {
+    MAPS.iter().find(|m| m.id == id)
+}
+
+impl Map {
+    /// Its values, row by row; NaN where there is none. Empty if the map needs a reference and there is none
+    /// of the same size.
+    #[must_use]
+    pub fn values(&self, view: &Estimate<'_>, reference: Option<&Estimate<'_>>) -> Vec<f32> {
+        let size = |e: &Estimate<'_>| (e.picture.width, e.picture.height);
+        let reference = reference.filter(|r| size(r) == size(view));
+        if self.needs_reference && reference.is_none() {
+            return Vec::new();
+        }
+        (0..view.picture.pixels.len())
+            .into_par_iter()
+            .with_min_len(4096)
+            .map(|i| (self.value)(&pixel(view, reference, i)))
+            .collect()
+    }
+}
+
+fn pixel(view: &Estimate<'_>, reference: Option<&Estimate<'_>>, i: usize) -> Pixel {
+    const UNKNOWN: [f32; 3] = [f32::NAN; 3];
+    let mean = |e: &Estimate<'_>| e.picture.pixels.get(i).copied().unwrap_or(UNKNOWN);
+    let variance = |e: &Estimate<'_>| match e.standard_error {
+        Some(errors) => errors.get(i).map_or(UNKNOWN, |e| e.map(|e| e * e)),
+        None => [0.0; 3],
+    };
+    let grey_variance = |e: &Estimate<'_>| {
+        let chroma = e.noise.and_then(|n| n.get(i)).map_or(0.0, |n| n.chroma_variance);
+        (average(variance(e)) - chroma).max(0.0)
+    };
+    let noise = view.noise.and_then(|n| n.get(i));
+    Pixel {
+        mean: mean(view),
+        variance: variance(view),
+        grey_variance: grey_variance(view),
+        samples: noise.map_or(f32::NAN, |n| n.samples as f32),
+        lookups: noise.map_or(f32::NAN, |n| n.lookups),
+        reference: reference.map_or(UNKNOWN, mean),
+        reference_grey_variance: reference.map_or(0.0, grey_variance),
+    }
+}
+
+/// The values that the ends of a map's colours stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// The lowest.
+    pub lo: f32,
+    /// The highest.
+    pub hi: f32,
+    /// How values between them become colours.
+    pub scale: Scale,
+}
+
+/// A few pixels may leave the range; they show as its ends.
+const INSIDE: f64 = 0.995;
+/// A range by decades holds at most so many.
+const DECADES: i32 = 4;
+
+impl Range {
+    /// A range that suits the values of several views at once, so that their colours can be compared.
+    #[must_use]
+    pub fn of<'a>(scale: Scale, values: impl Iterator<Item = &'a [f32]>) -> Self {
+        if let Scale::Fixed(end) = scale {
+            return Self { lo: -end, hi: end, scale };
+        }
+        let mut sizes: Vec<f32> =
+            values.flatten().map(|v| v.abs()).filter(|v| v.is_finite() && *v > 0.0).collect();
+        if sizes.is_empty() {
+            return Self { lo: 0.0, hi: 1.0, scale: Scale::Linear };
+        }
+        let at = (((sizes.len() - 1) as f64) * INSIDE) as usize;
+        let (_, hi, _) = sizes.select_nth_unstable_by(at, f32::total_cmp);
+        let hi = *hi;
+        match scale {
+            Scale::Logarithmic => Self { lo: hi / 10f32.powi(DECADES), hi, scale },
+            Scale::Diverging => Self { lo: -hi, hi, scale },
+            _ => Self { lo: 0.0, hi, scale },
+        }
+    }
+
+    /// Where a value lies in the range, from 0 to 1; what is not a number lies nowhere.
+    #[must_use]
+    pub fn position(&self, value: f32) -> Option<f32> {
+        let share = match self.scale {
+            Scale::Logarithmic if value <= 0.0 => 0.0,
+            Scale::Logarithmic => (value / self.lo).ln() / (self.hi / self.lo).ln(),
+            _ => (value - self.lo) / (self.hi - self.lo),
+        };
+        (!share.is_nan()).then(|| share.clamp(0.0, 1.0))
+    }
+
+    /// The value at a position from 0 to 1.
+    #[must_use]
+    pub fn value(&self, position: f32) -> f32 {
+        match self.scale {
+            Scale::Logarithmic => self.lo * (self.hi / self.lo).powf(position),
+            _ => self.lo + (self.hi - self.lo) * position,
+        }
+    }
+
+    /// The colour at a position from 0 to 1.
+    #[must_use]
+    pub fn colour(&self, position: f32) -> [u8; 3] {
+        let position = f64::from(position);
+        let (gradient, at): (Gradient, f64) = match self.scale {
+            // Red above, blue below.
+            Scale::Diverging | Scale::Fixed(_) => (colorous::RED_BLUE, 1.0 - position),
+            Scale::Linear | Scale::Logarithmic => (colorous::VIRIDIS, position),
+        };
+        let colour = gradient.eval_continuous(at);
+        [colour.r, colour.g, colour.b]
+    }
+
+    /// The colour of a value; what is not a number shows magenta, which is in neither scale.
+    #[must_use]
+    pub fn paint(&self, value: f32) -> [u8; 3] {
+        self.position(value).map_or([255, 0, 255], |position| self.colour(position))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Noise;
+    use crate::measure::Picture;
+
+    #[test]
+    fn maps_show_what_their_formulas_say() {
+        let noise = [Noise {
+            chroma_variance: 0.02,
+            third_moment: 0.0,
+            variance_error: 0.0,
+            samples: 4,
+            lookups: 12.0,
+        }];
+        let view = Estimate {
+            picture: Picture { width: 1, height: 1, pixels: &[[1.0, 2.0, 4.5]] },
+            standard_error: Some(&[[0.3, 0.3, 0.3]]),
+            noise: Some(&noise),
+        };
+        let reference = Estimate {
+            picture: Picture { width: 1, height: 1, pixels: &[[2.0, 2.0, 2.0]] },
+            standard_error: None,
+            noise: None,
+        };
+        let value = |id: &str| find(id).unwrap().values(&view, Some(&reference))[0];
+        let near = |id: &str, expected: f32| {
+            assert!((value(id) - expected).abs() < 1e-4, "{id}: {} {expected}", value(id));
+        };
+        near("error", 0.5);
+        near("absolute", 3.5 / 3.0);
+        near("relative", 3.5 / 3.0 / 2.01);
+        near("squared", 7.25 / 3.0);
+        near("variance", 0.36);
+        near("standard-error", 0.3);
+        near("samples", 4.0);
+        near("lookups", 3.0);
+        near("z", 0.5 / 0.07f32.sqrt());
+        for map in MAPS {
+            assert_eq!(map.values(&view, None).is_empty(), map.needs_reference, "{}", map.id);
+        }
+    }
+
+    #[test]
+    fn ranges_hold_most_values_and_colours_run_through_them() {
+        let values: Vec<f32> = (1..=1000).map(|i| i as f32).chain([1e9, f32::NAN]).collect();
+        let range = Range::of(Scale::Linear, [values.as_slice()].into_iter());
+        assert!((990.0..=1000.0).contains(&range.hi) && range.lo == 0.0, "{range:?}");
+        let range = Range::of(Scale::Logarithmic, [values.as_slice()].into_iter());
+        for position in [0.0, 0.3, 1.0] {
+            assert!((range.position(range.value(position)).unwrap() - position).abs() < 1e-5);
+        }
+        let range = Range::of(Scale::Fixed(4.0), std::iter::empty());
+        assert_eq!(range.position(0.0), Some(0.5));
+        let (red, blue) = (range.paint(4.0), range.paint(-4.0));
+        assert!(red[0] > red[2] && blue[2] > blue[0]);
+        assert_eq!(range.paint(f32::NAN), [255, 0, 255]);
+        // Nothing to show at all.
+        assert_eq!(
+            Range::of(Scale::Diverging, std::iter::empty()).paint(0.0),
+            Range::of(Scale::Linear, std::iter::empty()).paint(0.0)
+        );
+    }
+}

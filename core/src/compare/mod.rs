@@ -1,0 +1,24 @@
+//! Estimators side by side: which one wins, by how much, and how sure that is.
+//!
+//! ```text
+//!   Session (fair turns) ──► Snapshot of every view ──┐
+//!   Reference: rendered, read, pooled ────────────────┴─► rank ──► Standing per view, Verdict
+//!                                                     └─► maps, curves, report
+//! ```
+//!
+//! Everything here is a pure function of pictures with their noise. [`rank`] holds every view against the
+//! reference, or against the mean of the *other* unbiased views where there is none.
+
+mod agreement;
+pub mod curve;
+mod estimate;
+mod experiment;
+pub mod maps;
+mod ranking;
+mod reference;
+
+pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
+pub use estimate::{Estimate, RegionNoise};
+pub use experiment::{Experiment, View, label};
+pub use ranking::{Against, Contender, Question, Standing, rank};
+pub use reference::Reference;

@@ -1,0 +1,259 @@
+//! The table: every view's cost, noise, error, speed-up with its interval, and whether it is biased.
+
+use super::agreement::{Agreement, Verdict, agreement};
+use super::estimate::{Estimate, RegionNoise};
+use super::reference::Reference;
+use crate::estimator;
+use crate::film::Snapshot;
+use crate::measure::{self, Measure, Measured, Region};
+use crate::scene::SceneDoc;
+
+/// A view as it competes.
+#[derive(Clone, Copy, Debug)]
+pub struct Contender<'a> {
+    /// A, B, C, …
+    pub label: &'a str,
+    /// What it renders.
+    pub doc: &'a SceneDoc,
+    /// Its newest picture.
+    pub snapshot: &'a Snapshot,
+}
+
+impl Contender<'_> {
+    /// The estimator's name for people.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        estimator::find(&self.doc.estimator.id).map_or(self.doc.estimator.id.as_str(), |e| e.name)
+    }
+
+    /// Why its estimate is biased, if a choice of its document makes it so.
+    #[must_use]
+    pub fn declared_bias(&self) -> Option<&'static str> {
+        estimator::find(&self.doc.estimator.id).and_then(|e| e.bias(self.doc))
+    }
+
+    /// Whether two views may be held against each other: of one image, with random numbers of their own.
+    fn is_comparable(&self, other: &Self) -> bool {
+        self.snapshot.target == other.snapshot.target
+            && self.doc.render.seed != other.doc.render.seed
+            && (self.snapshot.width, self.snapshot.height) == (other.snapshot.width, other.snapshot.height)
+    }
+}
+
+/// What a ranking is about.
+#[derive(Clone, Debug)]
+pub struct Question<'a> {
+    /// What errors are measured against; absent: for each view the mean of the other unbiased ones.
+    pub reference: Option<&'a Reference>,
+    /// The view that *is* the reference, if one was promoted.
+    pub reference_view: Option<usize>,
+    /// The view that speed-ups are relative to.
+    pub baseline: usize,
+    /// The pixels; absent: all.
+    pub region: Option<Region>,
+    /// The measures of error to compute.
+    pub measures: Vec<&'static Measure>,
+}
+
+/// What a view was held against.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Against {
+    /// The reference, by where it comes from.
+    Reference(String),
+    /// The mean of the other unbiased views, by their labels.
+    Others(String),
+    /// Nothing, and why.
+    Nothing(&'static str),
+}
+
+/// One line of the table.
+#[derive(Clone, Debug)]
+pub struct Standing {
+    /// A, B, C, …
+    pub label: String,
+    /// The estimator's id.
+    pub estimator: String,
+    /// Its name for people.
+    pub name: String,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// CPU seconds of path tracing.
+    pub cpu_seconds: f64,
+    /// Seconds of rendering.
+    pub seconds: f64,
+    /// Look-ups of the medium.
+    pub lookups: u64,
+    /// Look-ups per path.
+    pub lookups_per_path: f64,
+    /// Errors by measure, in the order of the question.
+    pub errors: Vec<(&'static Measure, Measured)>,
+    /// Variance of a pixel's mean, over pixels and channels.
+    pub variance: f64,
+    /// Standard error of that.
+    pub variance_error: f64,
+    /// The part of it that is colour noise.
+    pub chroma_variance: f64,
+    /// 1 / (variance · CPU seconds).
+    pub efficiency: f64,
+    /// Efficiency over that of the baseline.
+    pub speedup: f64,
+    /// Its 95 % interval.
+    pub speedup_interval: [f64; 2],
+    /// What it was held against.
+    pub against: Against,
+    /// What came of it.
+    pub agreement: Option<Agreement>,
+    /// Why it is biased by its own document, if it is.
+    pub declared_bias: Option<&'static str>,
+    /// Pixels in the region, and how many of them have no value.
+    pub pixels: u64,
+    /// Pixels without a finite value.
+    pub excluded: u64,
+}
+
+impl Standing {
+    /// The verdict; undecided if there is nothing to hold it against.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        self.agreement.map_or(Verdict::Undecided, |a| a.verdict)
+    }
+
+    /// An error by its id.
+    #[must_use]
+    pub fn error(&self, id: &str) -> Option<&Measured> {
+        self.errors.iter().find(|(m, _)| m.id == id).map(|(_, measured)| measured)
+    }
+}
+
+/// Two-sided 95 % of a normal distribution.
+const INTERVAL: f64 = 1.959_964;
+
+/// Ranks the views. A view without three samples per pixel has no numbers yet and is left out.
+#[must_use]
+pub fn rank(contenders: &[Contender<'_>], question: &Question<'_>) -> Vec<Standing> {
+    let baseline = contenders.get(question.baseline).and_then(|b| efficiency(b, question.region));
+    (0..contenders.len()).filter_map(|i| standing(contenders, i, question, baseline)).collect()
+}
+
+/// The region of a question in a picture.
+fn region_of(region: Option<Region>, snapshot: &Snapshot) -> Region {
+    let whole = Region::whole(snapshot.width, snapshot.height);
+    region.map_or(whole, |r| r.clipped(snapshot.width, snapshot.height))
+}
+
+/// 1 / (variance · CPU seconds) with its relative standard error.
+#[derive(Clone, Copy, Debug)]
+struct Efficiency {
+    value: f64,
+    relative_error: f64,
+}
+
+fn efficiency(view: &Contender<'_>, region: Option<Region>) -> Option<Efficiency> {
+    let noise = RegionNoise::of(&Estimate::of(view.snapshot)?, region_of(region, view.snapshot), |_| true);
+    let (variance, error) = noise.pixel_variance();
+    let value = 1.0 / (variance * view.snapshot.cpu_seconds);
+    Some(Efficiency { value, relative_error: (error / variance).hypot(view.snapshot.cost_error) })
+}
+
+fn standing(
+    contenders: &[Contender<'_>],
+    index: usize,
+    question: &Question<'_>,
+    baseline: Option<Efficiency>,
+) -> Option<Standing> {
+    let view = contenders.get(index)?;
+    let snapshot = view.snapshot;
+    let estimate = Estimate::of(snapshot)?;
+    let region = region_of(question.region, snapshot);
+    let noise = RegionNoise::of(&estimate, region, |_| true);
+    let (variance, variance_error) = noise.pixel_variance();
+    let mine = efficiency(view, question.region)?;
+    let (speedup, speedup_interval) = match baseline {
+        Some(_) if index == question.baseline => (1.0, [1.0, 1.0]),
+        Some(base) => {
+            let ratio = mine.value / base.value;
+            let factor = (INTERVAL * mine.relative_error.hypot(base.relative_error)).exp();
+            (ratio, [ratio / factor, ratio * factor])
+        }
+        None => (f64::NAN, [f64::NAN; 2]),
+    };
+    let (against, held) = opponent(contenders, index, question);
+    let agreement = held.as_ref().and_then(|r| agreement(&estimate, &r.estimate(), region));
+    let errors = held.as_ref().map(|r| errors(&estimate, r, region, &question.measures)).unwrap_or_default();
+    let pixels = ((region.x1 - region.x0) * (region.y1 - region.y0)) as u64;
+    Some(Standing {
+        label: view.label.to_owned(),
+        estimator: view.doc.estimator.id.clone(),
+        name: view.name().to_owned(),
+        spp: snapshot.spp,
+        cpu_seconds: snapshot.cpu_seconds,
+        seconds: snapshot.seconds,
+        lookups: snapshot.tally.lookups,
+        lookups_per_path: snapshot.tally.lookups as f64 / snapshot.tally.paths.max(1) as f64,
+        errors,
+        variance,
+        variance_error,
+        chroma_variance: noise.pixel_chroma_variance(),
+        efficiency: mine.value,
+        speedup,
+        speedup_interval,
+        against,
+        agreement,
+        declared_bias: view.declared_bias(),
+        pixels,
+        excluded: pixels - noise.pixels,
+    })
+}
+
+fn errors(
+    estimate: &Estimate<'_>,
+    reference: &Reference,
+    region: Region,
+    measures: &[&'static Measure],
+) -> Vec<(&'static Measure, Measured)> {
+    let held = measure::Reference {
+        picture: reference.estimate().picture,
+        standard_error: reference.standard_error.as_deref(),
+    };
+    let measured = measures.iter().map(|m| (*m, (m.measure)(&estimate.picture, &held, region)));
+    measured.filter_map(|(m, result)| Some((m, result.ok()?))).collect()
+}
+
+/// What a view is held against, with the picture.
+pub(super) fn opponent<'a>(
+    contenders: &[Contender<'_>],
+    index: usize,
+    question: &Question<'a>,
+) -> (Against, Option<std::borrow::Cow<'a, Reference>>) {
+    use std::borrow::Cow;
+    let Some(view) = contenders.get(index) else { return (Against::Nothing("there is no such view"), None) };
+    if question.reference_view == Some(index) {
+        return (Against::Nothing("it is the reference"), None);
+    }
+    if let Some(reference) = question.reference {
+        let promoted = question.reference_view.and_then(|v| contenders.get(v));
+        if promoted.is_some_and(|p| p.doc.render.seed == view.doc.render.seed) {
+            return (
+                Against::Nothing("it has the random numbers of the reference: give it another seed"),
+                None,
+            );
+        }
+        if reference.fits(&view.snapshot.target) {
+            return (Against::Reference(reference.origin.clone()), Some(Cow::Borrowed(reference)));
+        }
+        return (Against::Nothing("the reference is a picture of something else"), None);
+    }
+    let others: Vec<&Contender<'_>> = contenders
+        .iter()
+        .enumerate()
+        .filter(|(j, other)| *j != index && other.declared_bias().is_none() && view.is_comparable(other))
+        .map(|(_, other)| other)
+        .filter(|other| Estimate::of(other.snapshot).is_some())
+        .collect();
+    let labels = others.iter().map(|o| o.label).collect::<Vec<_>>().join(", ");
+    let snapshots: Vec<&Snapshot> = others.iter().map(|o| o.snapshot).collect();
+    match Reference::pooled(&snapshots, labels.clone()) {
+        Some(pooled) => (Against::Others(labels), Some(Cow::Owned(pooled))),
+        None => (Against::Nothing("no other unbiased view shows the same image with its own seed"), None),
+    }
+}
