@@ -16,4 +16,5 @@ pub mod panels;
 pub mod screenshot;
 pub mod theme;
 pub mod view;
+pub mod wall;
 pub mod widgets;

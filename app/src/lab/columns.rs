@@ -31,9 +31,11 @@ impl LabApp {
         });
         ScrollArea::vertical().id_salt(title).auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = crate::theme::UNIT;
+            let saved = self.document.saved();
+            let opened = saved.view_doc(self.wall.selected()).unwrap_or_else(|| saved.clone());
             let mut cx = Cx {
                 draft,
-                opened: self.document.saved(),
+                opened: &opened,
                 state: &self.state,
                 stats: &self.stats,
                 settings: &self.settings,

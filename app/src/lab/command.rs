@@ -1,6 +1,7 @@
 //! Everything that the window can be asked to do. Widgets push commands; `logic` carries them out.
 
 use crate::model::Source;
+use crate::wall::WallEdit;
 use egui::ThemePreference;
 use majorant_core::scene::SceneDoc;
 use std::path::PathBuf;
@@ -22,6 +23,8 @@ pub enum Purpose {
     ExportExr,
     /// Where to write the picture as it is shown.
     ExportPng,
+    /// An EXR picture that errors are measured against.
+    Reference,
 }
 
 /// How a question about unsaved changes was answered.
@@ -40,6 +43,24 @@ pub enum Answer {
 pub enum Command {
     /// Replaces the document by an edited one.
     Edit(Box<SceneDoc>),
+    /// Edits the comparison.
+    Wall(WallEdit),
+    /// Chooses the view that the method column edits.
+    SelectView(usize),
+    /// Shows the next view, or has the wall show one at a time.
+    Flip,
+    /// Switches between an arrangement and side by side.
+    Arrange(majorant_core::scene::Arrangement),
+    /// Whether a drag on a picture draws the box that numbers are about.
+    ToggleBoxTool,
+    /// Shows or hides the numbers.
+    ToggleDock,
+    /// Shows numbers of this kind.
+    ShowTab(&'static str),
+    /// Opens a comparison that is set up already, by its name.
+    OpenPreset(&'static str),
+    /// Larger type, for projectors.
+    ToggleLargeType,
     /// Takes the last edit back.
     Undo,
     /// Does it again.

@@ -4,9 +4,11 @@ use super::dialogs::{Dialog, PathPrompt};
 use super::{Command, LabApp, Purpose, Severity};
 use crate::model::Source;
 use crate::model::own_volume::{Look, with_volume};
+use crate::wall::WallEdit;
 use crate::widgets::format_number;
+use majorant_core::io::picture;
 use majorant_core::io::volume::EXTENSIONS;
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc};
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc, ReferenceDoc};
 use std::path::{Path, PathBuf};
 
 /// What a file is, by its extension.
@@ -37,6 +39,7 @@ impl LabApp {
         match FileKind::of(&path) {
             FileKind::Scene => self.apply(Command::Open(Source::File(path))),
             FileKind::Volume => self.attempt(|app| app.tasks.look_into(path)),
+            FileKind::Panorama if self.is_render(&path) => self.hold_against(&path),
             FileKind::Panorama => self.light_with(&path),
             FileKind::Unknown => self.messages.fail(format!(
                 "{}: not a kind of file that Majorant reads. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
@@ -76,6 +79,7 @@ impl LabApp {
             Purpose::OpenScene => self.apply(Command::Open(Source::File(path))),
             Purpose::OpenVolume => self.attempt(|app| app.tasks.look_into(path)),
             Purpose::SaveScene => self.save_to(&path),
+            Purpose::Reference => self.hold_against(&path),
             Purpose::ExportExr | Purpose::ExportPng => self.export(purpose == Purpose::ExportPng, path),
             Purpose::DensityFile => {
                 let file = self.short_name(&path);
@@ -114,6 +118,25 @@ impl LabApp {
                 format_number(scale.into())
             ),
         );
+    }
+
+    /// Whether a picture is a render that errors can be measured against: it says so itself, or has the size of
+    /// the film. Anything else lights the scene.
+    fn is_render(&self, path: &Path) -> bool {
+        let film = &self.doc().film;
+        picture::exr_info(path).is_ok_and(|info| {
+            info.metadata.is_some()
+                || (info.width, info.height) == (film.width as usize, film.height as usize)
+        })
+    }
+
+    /// A picture becomes what errors are measured against.
+    fn hold_against(&mut self, path: &Path) {
+        let file = self.short_name(path);
+        let reference = ReferenceDoc::File { file };
+        self.apply(Command::Wall(WallEdit::Reference(reference)));
+        let text = format!("{} is the reference: errors are measured against it.", path.display());
+        self.messages.say(Severity::Done, text);
     }
 
     /// A panorama becomes the environment map, in place of the one that is there.

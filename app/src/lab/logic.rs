@@ -2,38 +2,32 @@
 
 use super::dialogs::Dialog;
 use super::tasks::Outcome;
-use super::{Answer, Command, LabApp, Severity, Stats, VIEW};
-use crate::model::{Source, Work, work_after};
+use super::{Answer, Command, LabApp, Severity};
+use crate::model::{Document, Source, resolved};
+use crate::view::developer::Sight;
 use crate::view::image_view::ImageView;
-use egui::{Context, TextureFilter, TextureOptions, ViewportCommand};
-use majorant_core::session::{Job, Role, Status};
+use crate::wall::presets::PRESETS;
+use crate::wall::{Slot, Tool, WallEdit, edited};
+use egui::{Context, ViewportCommand};
+use majorant_core::scene::Arrangement;
+use majorant_core::session::{Status, ViewId};
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Duration;
 
 /// An edit becomes an undo step when nothing changed for this long.
 const SETTLED_SECONDS: f64 = 0.25;
 
-/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
-const TEXTURE: TextureOptions = TextureOptions {
-    magnification: TextureFilter::Nearest,
-    minification: TextureFilter::Linear,
-    ..TextureOptions::LINEAR
-};
-
 impl LabApp {
     /// Takes note of everything that happened since the last frame.
     pub(super) fn update(&mut self, ctx: &Context) {
-        self.state = self.session.state(VIEW);
-        self.stats = Stats::new(&self.state, &self.doc().render);
-        self.developer.set_view(&self.document.doc().view);
-        if let Some(picture) = self.developer.take() {
-            match &mut self.texture {
-                Some(texture) => texture.set(picture.image, TEXTURE),
-                None => self.texture = Some(ctx.load_texture("picture", picture.image, TEXTURE)),
-            }
-            self.shown = Some(picture.snapshot);
+        let prints = self.developer.take();
+        self.wall.update(ctx, &self.session, prints);
+        if let Some(slot) = self.wall.selected_slot() {
+            self.state = slot.state.clone();
+            self.stats = slot.stats.clone();
         }
+        self.shown = self.wall.hung(Sight::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
+        self.developer.order(self.wall.order());
         self.self_check.poll();
         while let Some(outcome) = self.tasks.take() {
             self.finish(outcome);
@@ -71,6 +65,7 @@ impl LabApp {
                 self.messages.say(Severity::Done, format!("Wrote {}.", path.display()));
             }
             Outcome::Exported(_, Err(problem)) => self.messages.fail(problem),
+            Outcome::Reference(path, read) => self.wall.finish_reading(&path, read),
         }
     }
 
@@ -140,16 +135,31 @@ impl LabApp {
             Command::CloseDialog => (self.dialog, self.after_save) = (None, None),
             Command::Save => self.save_scene(),
             Command::TogglePause => {
-                let paused = self.state.status == Status::Paused;
-                self.session.set_paused(VIEW, !paused);
+                let paused = self.wall.slots().iter().any(|s| s.state.status == Status::Paused);
+                self.each_view(|session, id| session.set_paused(id, !paused));
             }
-            Command::Step => self.session.step(VIEW),
-            Command::Restart => self.session.restart(VIEW),
-            Command::Fit => self.image_view = ImageView::FIT,
+            Command::Step => self.each_view(|session, id| session.step(id)),
+            Command::Restart => self.each_view(|session, id| session.restart(id)),
+            Command::Fit => self.wall.set_zoom_of_all(ImageView::FIT),
             Command::Zoom(zoom) => {
                 let size = egui::vec2(self.doc().film.width as f32, self.doc().film.height as f32);
-                self.image_view = ImageView::at_zoom(zoom, size);
+                self.wall.set_zoom_of_all(ImageView::at_zoom(zoom, size));
             }
+            Command::Wall(edit) => self.document.edit(edited(self.doc(), &edit)),
+            Command::SelectView(view) => self.wall.select(view),
+            Command::Flip => self.flip(),
+            Command::Arrange(arrangement) => {
+                let now = self.doc().compare.arrangement;
+                let next = if now == arrangement { Arrangement::Grid } else { arrangement };
+                self.apply(Command::Wall(WallEdit::Arrange(next)));
+            }
+            Command::ToggleBoxTool => {
+                self.wall.tool = if self.wall.tool == Tool::Region { Tool::Camera } else { Tool::Region };
+            }
+            Command::ToggleDock => self.settings.dock ^= true,
+            Command::ShowTab(id) => (self.settings.tab, self.settings.dock) = (id.to_owned(), true),
+            Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
+            Command::ToggleLargeType => self.settings.large_type ^= true,
             Command::ToggleSceneColumn => self.settings.scene_column ^= true,
             Command::ToggleMethodColumn => self.settings.method_column ^= true,
             Command::ToggleShortcuts => self.shortcuts_open ^= true,
@@ -183,6 +193,7 @@ impl LabApp {
     pub(super) fn proceed(&mut self, command: Command) {
         match command {
             Command::Open(source) => self.open(&source),
+            Command::OpenPreset(name) => self.open_preset(name),
             Command::Quit => self.quitting = true,
             _ => {}
         }
@@ -201,33 +212,68 @@ impl LabApp {
         }
     }
 
+    /// Larger type is the interface's own zoom, which Ctrl + plus and minus change further.
+    pub(super) fn apply_type_size(&mut self, ctx: &Context) {
+        let wanted = self.settings.zoom_factor();
+        if self.applied_zoom_factor != wanted {
+            self.applied_zoom_factor = wanted;
+            ctx.set_zoom_factor(wanted);
+        }
+    }
+
+    /// Shows the next view, or has the wall show one at a time.
+    fn flip(&mut self) {
+        if self.doc().compare.arrangement == Arrangement::Flip {
+            let sights = self.wall.sights();
+            self.wall.flipped = (self.wall.flipped + 1) % sights.len().max(1);
+            if let Some(Sight::View(view)) = sights.get(self.wall.flipped) {
+                self.wall.select(*view);
+            }
+        } else {
+            self.apply(Command::Wall(WallEdit::Arrange(Arrangement::Flip)));
+        }
+    }
+
+    fn each_view(&self, act: impl Fn(&majorant_core::session::Session, ViewId)) {
+        for id in self.wall.slots().iter().map(|slot: &Slot| slot.id) {
+            act(&self.session, id);
+        }
+    }
+
     /// Gives the session what changed, found by comparing documents.
     pub(super) fn submit_if_needed(&mut self) {
-        let doc = self.document.doc();
-        let work = self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, doc));
-        match work {
-            Work::None => return,
-            Work::Limits => self.session.set_limits(VIEW, doc.render.limits()),
-            Work::Render => {
-                let job =
-                    Job { doc: Arc::new(self.document.resolved()), preview: true, role: Role::Contender };
-                self.session.submit(VIEW, job);
+        let (doc, base) = (self.document.doc(), self.document.base());
+        let wanted = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
+        if let Some(path) = wanted {
+            let read = self.tasks.read_reference(path);
+            if let Err(problem) = read {
+                self.messages.fail(problem);
             }
         }
-        self.submitted = Some(doc.clone());
+    }
+
+    fn open_preset(&mut self, name: &str) {
+        match PRESETS.iter().find(|p| p.name == name).map(crate::wall::presets::Preset::doc) {
+            Some(Ok(doc)) => self.show(Document::new(doc)),
+            Some(Err(problem)) => self.messages.fail(problem),
+            None => {}
+        }
+    }
+
+    fn show(&mut self, document: Document) {
+        self.document = document;
+        self.wall.forget();
+        self.grids.clear();
     }
 
     /// Opens a scene; what was open stays if that fails.
     pub(super) fn open(&mut self, source: &Source) {
-        match crate::model::Document::open(source) {
+        match Document::open(source) {
             Ok(document) => {
                 if let Some(path) = document.path() {
                     self.settings.remember(path);
                 }
-                self.document = document;
-                self.submitted = None;
-                self.grids.clear();
-                self.image_view = ImageView::FIT;
+                self.show(document);
             }
             Err(problem) => self.messages.fail(problem),
         }

@@ -4,9 +4,11 @@ use super::shortcuts::keys_of;
 use super::{Command, LabApp, Purpose};
 use crate::model::Source;
 use crate::theme::Palette;
+use crate::wall::WallEdit;
+use crate::wall::presets::PRESETS;
 use egui::{Align, Button, Label, Layout, MenuBar, RichText, ThemePreference, Ui};
 use majorant_core::io::embedded;
-use majorant_core::scene::ToneCurve;
+use majorant_core::scene::{Arrangement, ToneCurve};
 
 type Commands = Vec<Command>;
 
@@ -19,6 +21,7 @@ impl LabApp {
                 item_if(ui, self.document.can_redo(), "Redo", Command::Redo, commands);
             });
             ui.menu_button("View", |ui| self.view_ui(ui, commands));
+            ui.menu_button("Compare", |ui| self.compare_ui(ui, commands));
             ui.menu_button("Help", |ui| {
                 item(ui, "Keys and gestures", Command::ToggleShortcuts, commands);
                 item(ui, "Self-check…", Command::OpenSelfCheck, commands);
@@ -92,6 +95,11 @@ impl LabApp {
             }
         }
         ui.separator();
+        let mut large = self.settings.large_type;
+        if ui.checkbox(&mut large, "Large type, for projectors").clicked() {
+            commands.push(Command::ToggleLargeType);
+        }
+        ui.separator();
         for (theme, name) in [
             (ThemePreference::Dark, "Dark theme"),
             (ThemePreference::Light, "Light theme"),
@@ -102,6 +110,35 @@ impl LabApp {
                 ui.close();
             }
         }
+    }
+
+    fn compare_ui(&self, ui: &mut Ui, commands: &mut Commands) {
+        for preset in PRESETS {
+            if ui.button(preset.name).on_hover_text(preset.about).clicked() {
+                commands.push(Command::OpenPreset(preset.name));
+                ui.close();
+            }
+        }
+        ui.separator();
+        for count in [1, 2, 3, 4, 6] {
+            let text = if count == 1 { "One view".to_owned() } else { format!("{count} views") };
+            if ui.radio(self.doc().view_count() == count, text).clicked() {
+                commands.push(Command::Wall(WallEdit::Count(count)));
+                ui.close();
+            }
+        }
+        ui.separator();
+        let several = self.doc().view_count() > 1;
+        item_if(ui, several, "Wipe", Command::Arrange(Arrangement::Wipe), commands);
+        item_if(ui, several, "Difference", Command::Arrange(Arrangement::Difference), commands);
+        item_if(ui, several, "Flip", Command::Flip, commands);
+        ui.separator();
+        let mut own = self.doc().compare.own_zoom;
+        if ui.checkbox(&mut own, "Every view has its own zoom").clicked() {
+            commands.push(Command::Wall(WallEdit::OwnZoom(own)));
+        }
+        item(ui, "Numbers", Command::ToggleDock, commands);
+        item(ui, "Load reference…", Command::Ask(Purpose::Reference), commands);
     }
 
     /// The scene's name at the right end of the bar, with the mark of unsaved changes.

@@ -36,10 +36,9 @@ pub use tasks::GridLists;
 use crate::model::{Document, Settings, Source};
 use crate::screenshot::Screenshot;
 use crate::theme;
-use crate::view::developer::{Bell, Developer};
-use crate::view::image_view::ImageView;
+use crate::view::developer::{Bell, Developer, Sight};
+use crate::wall::Wall;
 use dialogs::Dialog;
-use egui::TextureHandle;
 use majorant_core::film::Snapshot;
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
@@ -48,9 +47,6 @@ use self_check::SelfCheck;
 use std::sync::Arc;
 use std::time::Duration;
 use tasks::Tasks;
-
-/// The only view of the session that the window shows.
-const VIEW: ViewId = ViewId(0);
 
 /// The window: what is open, what renders, what is shown.
 pub struct LabApp {
@@ -61,13 +57,16 @@ pub struct LabApp {
     session: Arc<Session>,
     state: ViewState,
     stats: Stats,
-    /// What the session was last given, before file names were resolved.
-    submitted: Option<SceneDoc>,
-    texture: Option<TextureHandle>,
+    /// The views.
+    wall: Wall,
+    /// The picture of the selected view.
     shown: Option<Arc<Snapshot>>,
-    image_view: ImageView,
-    pixel: Option<[usize; 2]>,
+    /// The pixel under the pointer, with the picture that it is on.
+    pixel: Option<(Sight, [usize; 2])>,
     zoom: f32,
+    /// Where the pointer was when Tab was pressed decides whether it flips pictures or moves the focus.
+    over_wall: bool,
+    applied_zoom_factor: f32,
     messages: Messages,
     dialog: Option<Dialog>,
     shortcuts_open: bool,
@@ -102,6 +101,8 @@ impl LabApp {
             settings.theme = theme.into();
         }
         ctx.set_theme(settings.theme);
+        let applied_zoom_factor = settings.zoom_factor();
+        ctx.set_zoom_factor(applied_zoom_factor);
         // Columns are remembered from the last run, but they start at their tops.
         ctx.data_mut(|data| data.remove_by_type::<egui::scroll_area::State>());
         if let Some(size) = options.window {
@@ -114,21 +115,24 @@ impl LabApp {
         let session = Arc::new(Session::new(Library::default(), move || ring.ring())?);
         let polled = Arc::clone(&session);
         let repaint = ctx.clone();
-        let developer = Developer::new(bell, move || polled.state(VIEW), move || repaint.request_repaint())?;
+        let poll = Box::new(move |id: ViewId| polled.state(id).snapshot);
+        let developer = Developer::new(bell, poll, move || repaint.request_repaint())?;
+        let repaint = ctx.clone();
+        let wall = Wall::new(move || repaint.request_repaint())?;
         let repaint = ctx.clone();
         let mut app = Self {
             document: Document::empty(),
-            state: session.state(VIEW),
+            state: session.state(ViewId(0)),
             stats: Stats::default(),
             settings,
             session,
             developer,
-            submitted: None,
-            texture: None,
+            wall,
             shown: None,
-            image_view: ImageView::FIT,
             pixel: None,
             zoom: 1.0,
+            over_wall: false,
+            applied_zoom_factor,
             messages: Messages::default(),
             dialog: None,
             shortcuts_open: false,
@@ -180,6 +184,12 @@ impl LabApp {
         &self.state
     }
 
+    /// The views.
+    #[must_use]
+    pub fn wall(&self) -> &Wall {
+        &self.wall
+    }
+
     /// The self-check.
     #[must_use]
     pub fn self_check(&self) -> &SelfCheck {
@@ -225,6 +235,7 @@ impl eframe::App for LabApp {
             }
             self.submit_if_needed();
             ui.ctx().set_theme(self.settings.theme);
+            self.apply_type_size(ui.ctx());
             // What is on the screen is from before the commands.
             ui.ctx().request_repaint();
         }

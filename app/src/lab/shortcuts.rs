@@ -2,7 +2,9 @@
 
 use super::Command;
 use super::command::Purpose;
+use crate::wall::WallEdit;
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
+use majorant_core::scene::Arrangement;
 
 /// A key and what it does.
 pub struct Shortcut {
@@ -48,6 +50,36 @@ pub const KEYS: &[Shortcut] = &[
     Shortcut { keys: key(CTRL, Key::Z), text: "Undo", command: || Command::Undo },
     Shortcut { keys: key(CTRL_SHIFT, Key::Z), text: "Redo", command: || Command::Redo },
     Shortcut { keys: key(CTRL, Key::Y), text: "Redo", command: || Command::Redo },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::W),
+        text: "Wipe two views",
+        command: || Command::Arrange(Arrangement::Wipe),
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::D),
+        text: "Difference of two views",
+        command: || Command::Arrange(Arrangement::Difference),
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::G),
+        text: "Views side by side",
+        command: || Command::Wall(WallEdit::Arrange(Arrangement::Grid)),
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::B),
+        text: "Draw the box that numbers are about",
+        command: || Command::ToggleBoxTool,
+    },
+    Shortcut {
+        keys: key(Modifiers::NONE, Key::N),
+        text: "Show or hide numbers",
+        command: || Command::ToggleDock,
+    },
+    Shortcut {
+        keys: key(CTRL, Key::L),
+        text: "Large type, for projectors",
+        command: || Command::ToggleLargeType,
+    },
     Shortcut { keys: key(CTRL, Key::Q), text: "Quit", command: || Command::Quit },
     Shortcut {
         keys: key(Modifiers::NONE, Key::P),
@@ -106,6 +138,7 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Right click a number", "As opened, or its default"),
     ("Double click a plot", "Add a control point"),
     ("Right click a point, Delete", "Remove it"),
+    ("Tab, over the pictures", "Flip to the next view"),
     ("Ctrl + plus, minus, 0", "Size of the interface"),
 ];
 
@@ -153,4 +186,17 @@ fn command_of(event: &Event, typing: bool) -> Option<Command> {
         Event::Text(text) if text == "?" && !typing => Some(Command::ToggleShortcuts),
         _ => None,
     }
+}
+
+/// Whether Tab was pressed. It is taken from egui, which would move the focus.
+#[must_use]
+pub fn tab_pressed(ctx: &Context) -> bool {
+    if ctx.text_edit_focused() {
+        return false;
+    }
+    let pressed = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+    if pressed {
+        ctx.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+    }
+    pressed
 }

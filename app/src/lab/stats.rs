@@ -60,6 +60,10 @@ impl Stats {
 /// `12.3 M`: three significant digits and a metric prefix.
 #[must_use]
 pub fn count(value: f64) -> String {
+    // What was counted has no decimals.
+    if value.fract() == 0.0 && value.abs() < 1e4 {
+        return format!("{value:.0}");
+    }
     let (scaled, prefix) = match value.abs() {
         v if v >= 1e9 => (value / 1e9, " G"),
         v if v >= 1e6 => (value / 1e6, " M"),
@@ -142,6 +146,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         assert_eq!(count(1.5), "1.50");
+        assert_eq!(count(64.0), "64");
         assert_eq!(count(12_345.0), "12.3 k");
         assert_eq!(count(123_456_789.0), "123 M");
         assert_eq!(duration(5.25), "5.2 s");

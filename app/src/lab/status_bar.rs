@@ -3,6 +3,7 @@
 use super::LabApp;
 use super::stats::{count, duration};
 use crate::theme::Palette;
+use crate::view::developer::Sight;
 use crate::view::readout;
 use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui, vec2};
 use majorant_core::session::Status;
@@ -21,8 +22,7 @@ impl LabApp {
                 ui.add(Label::new(RichText::new(view).color(palette.weak)).selectable(false))
                     .on_hover_text("Image size and zoom: F fits, 1 is 100 %, the wheel zooms");
                 ui.add_space(12.0);
-                let pixel = self.pixel.zip(self.shown.as_ref());
-                let text = match pixel.and_then(|(at, snapshot)| readout::describe(snapshot, at)) {
+                let text = match self.pixel.and_then(|(sight, at)| self.pixel_text(sight, at)) {
                     Some(text) => RichText::new(text).monospace().color(palette.strong),
                     None => RichText::new("Drag orbits, wheel zooms, ? lists all keys").color(palette.weak),
                 };
@@ -31,6 +31,18 @@ impl LabApp {
                 );
             });
         });
+    }
+
+    /// The numbers of the pixel under the pointer.
+    fn pixel_text(&self, sight: Sight, at: [usize; 2]) -> Option<String> {
+        let hung = self.wall.hung(sight)?;
+        let snapshot = hung.snapshot.as_ref()?;
+        let text = readout::describe(snapshot, at)?;
+        let map = hung.map.as_ref().and_then(|print| {
+            let value = print.values.get(at[1] * snapshot.width + at[0])?;
+            Some(format!("   {} {}", print.map.name, readout::short(*value)))
+        });
+        Some(text + &map.unwrap_or_default())
     }
 
     /// What the program does, in a colour and a few words.

@@ -3,6 +3,7 @@
 
 use super::Purpose;
 use crate::model::own_volume::{self, Look};
+use majorant_core::compare::Reference;
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, volume};
 use majorant_core::scene::SceneDoc;
@@ -22,6 +23,8 @@ pub enum Outcome {
     Volume(PathBuf, Result<Look, String>),
     /// A picture was written.
     Exported(PathBuf, Result<(), String>),
+    /// A reference was read.
+    Reference(PathBuf, Result<Reference, String>),
 }
 
 /// Tasks that run and answers that wait.
@@ -69,6 +72,17 @@ impl Tasks {
     /// When there is no thread to be had.
     pub fn list(&self, named: String, path: PathBuf) -> Result<(), String> {
         self.spawn("grids", move || Outcome::Listed(named, names(&path)))
+    }
+
+    /// Reads a picture that errors are measured against.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn read_reference(&self, path: PathBuf) -> Result<(), String> {
+        self.spawn("reference", move || {
+            let read = Reference::read(&path).map_err(|e| e.to_string());
+            Outcome::Reference(path, read)
+        })
     }
 
     /// Looks into a volume before the document is changed for it.
@@ -128,6 +142,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
         Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Volumes", volume::EXTENSIONS, ""),
         Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
+        Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),
         Purpose::ExportExr => ("Export EXR", "OpenEXR", &["exr"], "render.exr"),
         Purpose::ExportPng => ("Export PNG", "PNG", &["png"], "render.png"),
     };

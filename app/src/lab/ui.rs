@@ -8,21 +8,21 @@ use super::self_check::self_check_ui;
 use super::{Command, LabApp, shortcuts};
 use crate::panels::Column;
 use crate::theme::Palette;
-use crate::view::canvas::{Shown, canvas_ui};
-use crate::widgets::badge;
+use crate::wall::dock;
 use egui::{
-    Align, Align2, CentralPanel, Color32, Context, FontId, Frame, Id, Label, LayerId, Layout, Margin, Order,
-    Panel, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2,
+    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, LayerId, Margin, Order, Panel, Stroke,
+    StrokeKind, Ui,
 };
-use majorant_core::estimator;
-use majorant_core::scene::SceneDoc;
-use majorant_core::session::Status;
+use majorant_core::scene::{CameraDoc, SceneDoc};
 
 impl LabApp {
     /// Draws a frame; returns what it was asked for.
     pub(super) fn window_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = self.keys(ui.ctx());
-        let mut draft = self.document.doc().clone();
+        let whole = self.document.doc().clone();
+        let selected = self.wall.selected();
+        let mut draft = whole.view_doc(selected).unwrap_or_else(|| whole.clone());
+        let before = draft.clone();
         let palette = Palette::get(ui);
         let bar = |margin| Frame::NONE.fill(palette.bar).inner_margin(margin);
 
@@ -43,7 +43,8 @@ impl LabApp {
                 Panel::right("method-column").frame(column).default_size(292.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Method, &mut draft, &mut commands));
         }
-        CentralPanel::no_frame().show(ui, |ui| self.picture_ui(ui, &mut draft));
+        let mut camera = None;
+        CentralPanel::no_frame().show(ui, |ui| camera = self.wall_ui(ui, &whole, &mut commands));
 
         let name = self.name();
         dialog_ui(ui.ctx(), &mut self.dialog, &name, &mut commands);
@@ -53,8 +54,14 @@ impl LabApp {
         self_check_ui(ui.ctx(), &mut self.self_check, self.document.doc(), &mut commands);
         drop_overlay(ui.ctx());
         // Commands of this frame were meant for the document as it was drawn, edits included.
-        if draft != *self.document.doc() {
-            commands.insert(0, Command::Edit(Box::new(draft)));
+        let mut edited = if draft == before { whole.clone() } else { whole.with_view_doc(selected, &draft) };
+        if let Some((view, camera)) = camera
+            && let Some(seen) = edited.view_doc(view)
+        {
+            edited = edited.with_view_doc(view, &SceneDoc { camera, ..seen });
+        }
+        if edited != whole {
+            commands.insert(0, Command::Edit(Box::new(edited)));
         }
         commands
     }
@@ -62,6 +69,9 @@ impl LabApp {
     /// Keys of this frame; what is open over the window keeps the others from it.
     fn keys(&self, ctx: &Context) -> Vec<Command> {
         let mut commands = shortcuts::pressed(ctx);
+        if self.over_wall && self.document.doc().view_count() > 1 && shortcuts::tab_pressed(ctx) {
+            commands.push(Command::Flip);
+        }
         if self.dialog.is_some() || self.shortcuts_open || self.self_check.open {
             commands.retain(|command| self.shortcuts_open && *command == Command::ToggleShortcuts);
         }
@@ -81,67 +91,36 @@ impl LabApp {
         });
     }
 
-    fn picture_ui(&mut self, ui: &mut Ui, draft: &mut SceneDoc) {
-        let failure = match &self.state.status {
-            Status::Failed(text) => Some(text.clone()),
-            _ => None,
-        };
-        let display = self.document.doc().view.clone();
-        let shown = Shown {
-            texture: self.texture.as_ref(),
-            snapshot: self.shown.as_deref(),
-            dimmed: failure.is_some(),
-            display: &display,
-        };
-        let film = vec2(draft.film.width as f32, draft.film.height as f32);
-        let outcome = canvas_ui(ui, &shown, self.image_view, &draft.camera, film);
-        (self.image_view, self.pixel, self.zoom) = (outcome.view, outcome.pixel, outcome.zoom);
-        if let Some(camera) = outcome.camera {
-            draft.camera = camera;
-        }
-        self.remarks_ui(ui, outcome.rect);
-        if let Some(text) = failure {
-            failure_ui(ui, outcome.rect, &text, self.shown.is_some());
-        }
-    }
-}
-
-impl LabApp {
-    /// What has to be known about the picture to read it rightly, in its corner.
-    fn remarks_ui(&self, ui: &mut Ui, canvas: Rect) {
+    /// The wall with its bar and numbers; returns the camera of a view that a gesture has moved.
+    fn wall_ui(
+        &mut self,
+        ui: &mut Ui,
+        doc: &SceneDoc,
+        commands: &mut Vec<Command>,
+    ) -> Option<(usize, CameraDoc)> {
         let palette = Palette::get(ui);
-        let biased = estimator::find(&self.doc().estimator.id).and_then(|entry| entry.bias(self.doc()));
-        let coarse = self.shown.as_ref().is_some_and(|s| s.coarse.is_some());
-        let area = Rect::from_min_size(canvas.min + vec2(10.0, 10.0), vec2(canvas.width() - 20.0, 22.0));
-        let mut child =
-            ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
-        if let Some(reason) = biased {
-            badge(&mut child, palette.error, &format!("biased: {reason}"));
+        let dock = self.settings.dock && doc.view_count() > 1;
+        let bar = Frame::NONE.fill(palette.header).inner_margin(Margin::symmetric(8, 4));
+        Panel::top("wall-bar").frame(bar).resizable(false).show(ui, |ui| {
+            self.wall.bar_ui(ui, doc, dock, commands);
+        });
+        if dock {
+            let frame = Frame::NONE.fill(palette.panel);
+            let room = ui.available_height();
+            let panel = Panel::bottom("dock").frame(frame).resizable(true);
+            panel.default_size(0.37 * room).size_range(110.0..=(0.7 * room).max(120.0)).show(ui, |ui| {
+                // The panel keeps its height whatever its tab holds.
+                ui.set_min_height(ui.available_height());
+                let mut cx = dock::Cx { wall: &self.wall, doc, commands };
+                dock::dock_ui(ui, &self.settings.tab, &mut cx);
+            });
         }
-        if coarse {
-            badge(&mut child, palette.accent, "preview");
-        }
+        let area = ui.available_rect_before_wrap();
+        self.over_wall = ui.input(|i| i.pointer.latest_pos()).is_some_and(|at| area.contains(at));
+        let seen = self.wall.cells_ui(ui, doc, commands);
+        (self.pixel, self.zoom) = (seen.pixel, seen.zoom);
+        seen.camera
     }
-}
-
-/// Why nothing new is shown, over the last picture.
-fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
-    let palette = Palette::get(ui);
-    let width = (canvas.width() - 64.0).clamp(120.0, 560.0);
-    let left = canvas.left() + 0.5 * (canvas.width() - width);
-    let area = Rect::from_min_size(pos2(left, canvas.top() + 44.0), vec2(width, 10.0));
-    let mut child = ui.new_child(UiBuilder::new().max_rect(area));
-    let frame =
-        Frame::popup(child.style()).inner_margin(Margin::same(14)).stroke(Stroke::new(1.0, palette.error));
-    frame.show(&mut child, |ui| {
-        ui.set_width(width - 28.0);
-        ui.label(RichText::new("This scene cannot be rendered").color(palette.error));
-        ui.add(Label::new(RichText::new(text).color(palette.strong)).wrap());
-        let kept = "Your edits are kept: correct them, or take them back with Ctrl + Z.";
-        let kept =
-            if pictured { format!("The last picture is shown, dimmed. {kept}") } else { kept.to_owned() };
-        ui.add(Label::new(RichText::new(kept).small().color(palette.weak)).wrap());
-    });
 }
 
 /// While files hover over the window: what would become of them.
@@ -155,7 +134,9 @@ fn drop_overlay(ctx: &Context) {
         .map(|file| match file.path.as_deref().map(FileKind::of) {
             Some(FileKind::Scene) => "Open this scene",
             Some(FileKind::Volume) => "Fill the medium with this volume",
-            Some(FileKind::Panorama) => "Light the scene with this environment map",
+            Some(FileKind::Panorama) => {
+                "Measure errors against this picture, or light the scene with it if it is a panorama"
+            }
             Some(FileKind::Unknown) => "Not a kind of file that Majorant reads",
             None => "Drop a scene, a volume or an environment map",
         })

@@ -2,7 +2,7 @@
 
 use super::{History, rebase, resolved};
 use majorant_core::io::{embedded, scene_file};
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{CompareDoc, SceneDoc};
 use std::path::{Path, PathBuf};
 
 /// Where a scene comes from.
@@ -74,7 +74,12 @@ impl Document {
     /// A new scene, when not even the first one could be opened.
     #[must_use]
     pub fn empty() -> Self {
-        let doc = SceneDoc::default();
+        Self::new(SceneDoc::default())
+    }
+
+    /// A scene that has no file yet.
+    #[must_use]
+    pub fn new(doc: SceneDoc) -> Self {
         Self {
             saved: doc.clone(),
             history: History::new(doc.clone()),
@@ -111,7 +116,7 @@ impl Document {
     /// Whether there is something to save.
     #[must_use]
     pub fn is_modified(&self) -> bool {
-        self.doc != self.saved
+        self.doc != self.saved && worth_saving(&self.doc) != worth_saving(&self.saved)
     }
 
     /// The scene with absolute file names, as the session gets it.
@@ -172,6 +177,16 @@ impl Document {
         (self.saved, self.path, self.base) = (doc, Some(path), base);
         Ok(())
     }
+}
+
+/// The document without what is only looked at: how views are arranged is saved with a scene, but nobody has
+/// to be asked about it.
+fn worth_saving(doc: &SceneDoc) -> SceneDoc {
+    let mut doc = doc.clone();
+    let compare =
+        CompareDoc { views: doc.compare.views, reference: doc.compare.reference, ..CompareDoc::default() };
+    doc.compare = compare;
+    doc
 }
 
 fn working_directory() -> PathBuf {

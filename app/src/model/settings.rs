@@ -17,6 +17,12 @@ pub struct Settings {
     pub method_column: bool,
     /// Phase function lobes on a logarithmic radius.
     pub log_lobe: bool,
+    /// Whether numbers are shown below the pictures, once there are several.
+    pub dock: bool,
+    /// Which numbers.
+    pub tab: String,
+    /// Larger type, for projectors.
+    pub large_type: bool,
 }
 
 impl Default for Settings {
@@ -27,6 +33,9 @@ impl Default for Settings {
             scene_column: true,
             method_column: true,
             log_lobe: false,
+            dock: true,
+            tab: "ranking".into(),
+            large_type: false,
         }
     }
 }
@@ -35,6 +44,12 @@ impl Settings {
     /// Where eframe's storage keeps them.
     pub const KEY: &'static str = "majorant-settings";
     const RECENT: usize = 10;
+
+    /// Points of the interface over those of the screen.
+    #[must_use]
+    pub fn zoom_factor(&self) -> f32 {
+        if self.large_type { 1.4 } else { 1.0 }
+    }
 
     /// Puts a file at the head of the recent ones.
     pub fn remember(&mut self, path: &Path) {

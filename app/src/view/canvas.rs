@@ -8,6 +8,8 @@
 //! | wheel | zoom the picture at the pointer |
 //! | middle drag, Space + left drag | move the picture |
 //! | double click | fit the picture |
+//! | click | choose the view and the pixel |
+//! | Ctrl + left drag, or left drag with the box tool | draw the box that numbers are about |
 
 use super::{camera_control, image_view::ImageView, readout};
 use crate::theme::Palette;
@@ -26,8 +28,18 @@ pub struct Shown<'a> {
     pub snapshot: Option<&'a Snapshot>,
     /// Whether the picture is the last good one of a scene that does not build any more.
     pub dimmed: bool,
-    /// How radiance is shown.
-    pub display: &'a ViewDoc,
+    /// How radiance is shown; absent: no values are printed on enlarged pixels.
+    pub display: Option<&'a ViewDoc>,
+    /// A second picture right of a divider, which stands at this share of the canvas.
+    pub wipe: Option<(Option<&'a TextureHandle>, f32)>,
+    /// The box that numbers are about.
+    pub region: Option<[u32; 4]>,
+    /// The pixel whose samples are shown.
+    pub picked: Option<[usize; 2]>,
+    /// Whether a drag draws the box.
+    pub draws_region: bool,
+    /// What the picture is called.
+    pub name: &'a str,
 }
 
 /// What came of it.
@@ -42,18 +54,31 @@ pub struct Outcome {
     pub rect: Rect,
     /// Points per pixel.
     pub zoom: f32,
+    /// A pixel that was clicked.
+    pub clicked: Option<[usize; 2]>,
+    /// Whether the canvas was touched at all.
+    pub touched: bool,
+    /// A box that was drawn; none inside if it was cleared.
+    pub region: Option<Option<[u32; 4]>>,
+    /// Where the divider was dragged to.
+    pub split: Option<f32>,
 }
 
 /// Draws the picture and reads the gestures on it. `film` is the size that the document asks for.
 pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &CameraDoc, film: Vec2) -> Outcome {
     let palette = Palette::get(ui);
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Rendered image"));
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, shown.name));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, palette.canvas);
     let image = shown.snapshot.map_or(film, |s| Vec2::new(s.width as f32, s.height as f32));
 
-    let (view, moved) = gestures(ui, &response, view, camera, rect, image);
+    let region = shown.draws_region || ui.input(|i| i.modifiers.command);
+    let drawn = region_gesture(ui, &response, view, rect, image, region);
+    let (view, moved) = match drawn {
+        Some(_) => (view, None),
+        None => gestures(ui, &response, view, camera, rect, image),
+    };
     let frame = view.screen_rect(rect, image);
     match shown.texture {
         Some(texture) => {
@@ -66,11 +91,102 @@ pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &Camer
             painter.rect_stroke(frame, 0.0, Stroke::new(1.0, palette.line), StrokeKind::Inside);
         }
     }
-    if let Some(snapshot) = shown.snapshot {
-        readout::paint_values(&painter, view, rect, snapshot, shown.display);
+    if let (Some(snapshot), Some(display), None) = (shown.snapshot, shown.display, shown.wipe) {
+        readout::paint_values(&painter, view, rect, snapshot, display);
     }
+    let split = shown.wipe.and_then(|(second, at)| wipe_ui(ui, second, at, rect, frame));
+    marks(&painter, shown, drawn.flatten(), |at| view.screen_from_image(rect, image, at));
     let pixel = response.hover_pos().and_then(|at| view.pixel_at(rect, image, at));
-    Outcome { view, camera: moved, pixel, rect, zoom: view.zoom(rect, image) }
+    let finished = response.drag_stopped_by(PointerButton::Primary);
+    Outcome {
+        view,
+        camera: moved,
+        pixel,
+        rect,
+        zoom: view.zoom(rect, image),
+        clicked: if response.clicked() { pixel } else { None },
+        touched: response.clicked() || response.drag_started(),
+        region: drawn.filter(|_| finished),
+        split,
+    }
+}
+
+/// The part of the second picture right of the divider, and the divider itself.
+fn wipe_ui(ui: &mut Ui, second: Option<&TextureHandle>, at: f32, canvas: Rect, frame: Rect) -> Option<f32> {
+    let palette = Palette::get(ui);
+    let x = egui::lerp(canvas.x_range(), at);
+    let right = canvas.with_min_x(x);
+    if let Some(texture) = second {
+        let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter_at(right).image(texture.id(), frame, uv, Color32::WHITE);
+    }
+    let handle = Rect::from_x_y_ranges(x - 7.0..=x + 7.0, canvas.y_range());
+    let response = ui.interact(handle, ui.unique_id().with("divider"), Sense::drag());
+    response.widget_info(|| WidgetInfo::slider(true, f64::from(at), "Divider"));
+    let colour = if response.hovered() || response.dragged() { palette.accent } else { Color32::WHITE };
+    let painter = ui.painter_at(canvas);
+    painter.vline(x, canvas.y_range(), Stroke::new(3.0, Color32::from_black_alpha(140)));
+    painter.vline(x, canvas.y_range(), Stroke::new(1.5, colour));
+    painter.circle(pos2(x, canvas.center().y), 7.0, colour, Stroke::new(1.5, Color32::from_black_alpha(160)));
+    if response.hovered() || response.dragged() {
+        ui.set_cursor_icon(CursorIcon::ResizeHorizontal);
+    }
+    let moved = response.drag_delta().x;
+    (moved != 0.0).then(|| (at + moved / canvas.width().max(1.0)).clamp(0.02, 0.98))
+}
+
+/// The box that is being drawn: `Some(None)` if it holds nothing, `None` if none is drawn.
+fn region_gesture(
+    ui: &Ui,
+    response: &Response,
+    view: ImageView,
+    canvas: Rect,
+    image: Vec2,
+    wanted: bool,
+) -> Option<Option<[u32; 4]>> {
+    let id = response.id.with("region");
+    if response.drag_started_by(PointerButton::Primary) {
+        let from = ui.input(|i| i.pointer.press_origin()).filter(|_| wanted);
+        ui.data_mut(|data| match from {
+            Some(from) => {
+                data.insert_temp(id, from);
+            }
+            None => data.remove::<egui::Pos2>(id),
+        });
+    }
+    let dragging =
+        response.dragged_by(PointerButton::Primary) || response.drag_stopped_by(PointerButton::Primary);
+    let from = ui.data(|data| data.get_temp::<egui::Pos2>(id)).filter(|_| dragging)?;
+    if wanted {
+        ui.set_cursor_icon(CursorIcon::Crosshair);
+    }
+    let to = ui.input(|i| i.pointer.latest_pos())?;
+    let corner = |at| view.image_from_screen(canvas, image, at).to_vec2().clamp(Vec2::ZERO, image);
+    let (a, b) = (corner(from), corner(to));
+    let (low, high) = (a.min(b).floor(), a.max(b).ceil());
+    let holds = high.x - low.x >= 2.0 && high.y - low.y >= 2.0;
+    Some(holds.then(|| [low.x as u32, low.y as u32, high.x as u32, high.y as u32]))
+}
+
+/// The box and the pixel that numbers are about.
+fn marks(
+    painter: &egui::Painter,
+    shown: &Shown<'_>,
+    drawn: Option<[u32; 4]>,
+    place: impl Fn(egui::Pos2) -> egui::Pos2,
+) {
+    let outlined = |rect: Rect| {
+        painter.rect_stroke(rect, 0.0, Stroke::new(3.0, Color32::from_black_alpha(170)), StrokeKind::Outside);
+        painter.rect_stroke(rect, 0.0, Stroke::new(1.0, Color32::WHITE), StrokeKind::Outside);
+    };
+    if let Some([x0, y0, x1, y1]) = drawn.or(shown.region) {
+        outlined(Rect::from_two_pos(place(pos2(x0 as f32, y0 as f32)), place(pos2(x1 as f32, y1 as f32))));
+    }
+    if let Some([x, y]) = shown.picked {
+        let (x, y) = (x as f32, y as f32);
+        let pixel = Rect::from_two_pos(place(pos2(x, y)), place(pos2(x + 1.0, y + 1.0)));
+        outlined(Rect::from_center_size(pixel.center(), pixel.size().max(Vec2::splat(7.0))));
+    }
 }
 
 /// Pan and zoom of the picture, and the camera if a gesture moved it.

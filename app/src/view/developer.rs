@@ -1,12 +1,16 @@
-//! Develops snapshots into display pictures on a thread of its own, so that no frame waits for it.
+//! Develops pictures and maps on a thread of its own, so that no frame waits for it.
 //!
 //! The session rings a [`Bell`] when it has something new; the developer looks, at most thirty times a
-//! second and never more often than it can afford, applies the display transform and asks for a repaint.
+//! second and never more often than it can afford, develops what the window has ordered and asks for a
+//! repaint.
 
 use egui::{Color32, ColorImage};
+use majorant_core::compare::maps::{Map, Range};
+use majorant_core::compare::{Estimate, Experiment, Reference, View, label};
 use majorant_core::film::{Snapshot, display::DisplayTransform};
-use majorant_core::scene::ViewDoc;
-use majorant_core::session::ViewState;
+use majorant_core::scene::{Pair, SceneDoc, ViewDoc};
+use majorant_core::session::ViewId;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -16,25 +20,89 @@ const SHORTEST: Duration = Duration::from_millis(33);
 /// Developing may take this share of a core, so that rendering keeps the rest.
 const SHARE: u32 = 6;
 
+/// What there is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Sight {
+    /// A view of the document, from 0.
+    View(usize),
+    /// What errors are measured against.
+    Reference,
+    /// What two views differ by.
+    Difference,
+}
+
+/// A view that the window shows.
+#[derive(Clone)]
+pub struct OrderedView {
+    /// Its number in the document, from 0.
+    pub number: usize,
+    /// Its name in the session.
+    pub id: ViewId,
+    /// What it renders.
+    pub doc: Arc<SceneDoc>,
+}
+
+/// What the window wants to show.
+#[derive(Clone, Default)]
+pub struct Order {
+    /// The scene with its comparison.
+    pub doc: Arc<SceneDoc>,
+    /// Its views.
+    pub views: Vec<OrderedView>,
+    /// What errors are measured against.
+    pub reference: Option<Arc<Reference>>,
+    /// Pictures as they are, each with its display.
+    pub pictures: Vec<(Sight, ViewDoc)>,
+    /// Or this map of these.
+    pub maps: Option<(&'static Map, Vec<Sight>)>,
+}
+
+impl Order {
+    /// Whether nothing has to be developed anew. Documents and references are told apart by where they lie.
+    fn is_like(&self, other: &Self) -> bool {
+        let views =
+            |o: &Self| o.views.iter().map(|v| (v.number, v.id, Arc::as_ptr(&v.doc))).collect::<Vec<_>>();
+        let maps = |o: &Self| o.maps.as_ref().map(|(map, sights)| (map.id, sights.clone()));
+        Arc::ptr_eq(&self.doc, &other.doc)
+            && views(self) == views(other)
+            && self.reference.as_ref().map(Arc::as_ptr) == other.reference.as_ref().map(Arc::as_ptr)
+            && self.pictures == other.pictures
+            && maps(self) == maps(other)
+    }
+}
+
 /// A picture ready to be shown.
 #[derive(Clone, Debug)]
-pub struct Picture {
+pub struct Print {
     /// The pixels.
     pub image: ColorImage,
-    /// What they were made from.
-    pub snapshot: Arc<Snapshot>,
+    /// The view's numbers that it was made from; absent for the reference.
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// What it shows, if it is a map: the map's id, values and range.
+    pub map: Option<Arc<MapPrint>>,
+}
+
+/// The numbers behind a map.
+#[derive(Clone, Debug)]
+pub struct MapPrint {
+    /// Which map.
+    pub map: &'static Map,
+    /// Its values.
+    pub values: Vec<f32>,
+    /// What its colours stand for.
+    pub range: Range,
 }
 
 #[derive(Default)]
 struct Desk {
     rung: bool,
     closed: bool,
-    view: ViewDoc,
+    order: Order,
     interval: Duration,
-    done: Option<Picture>,
+    done: BTreeMap<Sight, Print>,
 }
 
-/// Tells the developer that there is something new to see; cheap to clone and to ring.
+/// Tells the window that there is something new; cheap to clone and to ring.
 #[derive(Clone, Default)]
 pub struct Bell {
     desk: Arc<(Mutex<Desk>, Condvar)>,
@@ -56,8 +124,8 @@ impl Bell {
         self.desk.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits for a ring and at least until `rested`; `None` means close.
-    fn wait(&self, rested: Instant) -> Option<ViewDoc> {
+    /// Waits for an order and at least until `rested`; `None` means close.
+    fn wait(&self, rested: Instant) -> Option<Order> {
         let mut desk = self.lock();
         loop {
             if desk.closed {
@@ -73,9 +141,12 @@ impl Bell {
             };
         }
         desk.rung = false;
-        Some(desk.view.clone())
+        Some(desk.order.clone())
     }
 }
+
+/// Finds the newest picture of a view.
+pub type Poll = Box<dyn Fn(ViewId) -> Option<Arc<Snapshot>> + Send>;
 
 /// The thread that develops. Dropping it stops and joins it.
 pub struct Developer {
@@ -84,15 +155,11 @@ pub struct Developer {
 }
 
 impl Developer {
-    /// Starts the thread. `poll` reads the newest state, `repaint` wakes the window.
+    /// Starts the thread. `repaint` wakes the window.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
-    pub fn new(
-        bell: Bell,
-        poll: impl Fn() -> ViewState + Send + 'static,
-        repaint: impl Fn() + Send + 'static,
-    ) -> std::io::Result<Self> {
+    pub fn new(bell: Bell, poll: Poll, repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
         let theirs = bell.clone();
         let thread = std::thread::Builder::new()
             .name("majorant-developer".into())
@@ -100,11 +167,11 @@ impl Developer {
         Ok(Self { bell, thread: Some(thread) })
     }
 
-    /// Develops with these display settings from now on, and the newest picture at once.
-    pub fn set_view(&self, view: &ViewDoc) {
-        if self.bell.lock().view != *view {
+    /// Develops this from now on, and what is new in it at once.
+    pub fn order(&self, order: Order) {
+        if !self.bell.lock().order.is_like(&order) {
             self.bell.change(|desk| {
-                desk.view = view.clone();
+                desk.order = order;
                 desk.rung = true;
             });
         }
@@ -115,10 +182,10 @@ impl Developer {
         self.bell.lock().interval = interval;
     }
 
-    /// The newest picture, if there is one that was not taken yet.
+    /// The pictures that were not taken yet.
     #[must_use]
-    pub fn take(&self) -> Option<Picture> {
-        self.bell.lock().done.take()
+    pub fn take(&self) -> BTreeMap<Sight, Print> {
+        std::mem::take(&mut self.bell.lock().done)
     }
 }
 
@@ -132,36 +199,153 @@ impl Drop for Developer {
     }
 }
 
-fn run(bell: &Bell, poll: &dyn Fn() -> ViewState, repaint: &dyn Fn()) {
+fn run(bell: &Bell, poll: &Poll, repaint: &dyn Fn()) {
     let mut rested = Instant::now();
-    let mut last: Option<(Arc<Snapshot>, ViewDoc)> = None;
-    while let Some(view) = bell.wait(rested) {
+    let mut darkroom = Darkroom::default();
+    while let Some(order) = bell.wait(rested) {
         let started = Instant::now();
-        if let Some(snapshot) = poll().snapshot {
-            let known = last.as_ref().is_some_and(|(s, v)| Arc::ptr_eq(s, &snapshot) && *v == view);
-            if !known {
-                let image = develop(&snapshot, &view);
-                bell.lock().done = Some(Picture { image, snapshot: Arc::clone(&snapshot) });
-                last = Some((snapshot, view));
-            }
-        }
-        let affordable = (started.elapsed() * SHARE).max(bell.lock().interval).max(SHORTEST);
-        rested = started + affordable;
+        let done = darkroom.develop(&order, poll);
+        let interval = {
+            let mut desk = bell.lock();
+            desk.done.extend(done);
+            desk.interval
+        };
+        rested = started + (started.elapsed() * SHARE).max(interval).max(SHORTEST);
         repaint();
     }
 }
 
+/// What was developed last, so that nothing is developed twice.
+#[derive(Default)]
+struct Darkroom {
+    pictures: BTreeMap<Sight, (Negative, ViewDoc)>,
+    maps: Option<(Vec<Negative>, Order)>,
+}
+
+/// What a picture was developed from. It is kept, so that nothing newer can lie at its place in memory.
+#[derive(Clone)]
+enum Negative {
+    View(Arc<Snapshot>),
+    Reference(Arc<Reference>),
+}
+
+impl PartialEq for Negative {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::View(a), Self::View(b)) => Arc::ptr_eq(a, b),
+            (Self::Reference(a), Self::Reference(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
+impl Darkroom {
+    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<Sight, Print> {
+        let views = order.views.iter().filter_map(|view| {
+            let snapshot = poll(view.id)?;
+            let label = label(view.number);
+            let doc = Arc::clone(&view.doc);
+            Some((view.number, View { label, doc, snapshot, checkpoints: Arc::default() }))
+        });
+        let experiment = Experiment {
+            doc: Arc::clone(&order.doc),
+            views: views.collect(),
+            reference: order.reference.clone(),
+        };
+        let mut done = self.pictures(order, &experiment);
+        done.extend(self.maps(order, &experiment));
+        done
+    }
+
+    fn pictures(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Print> {
+        let mut done = BTreeMap::new();
+        self.pictures.retain(|sight, _| order.pictures.iter().any(|(s, _)| s == sight));
+        for (sight, display) in &order.pictures {
+            let (key, size, pixels, snapshot) = match sight {
+                Sight::View(number) => {
+                    let Some((_, view)) = experiment.views.iter().find(|(n, _)| n == number) else {
+                        continue;
+                    };
+                    let s = &view.snapshot;
+                    (Negative::View(Arc::clone(s)), [s.width, s.height], &s.mean, Some(Arc::clone(s)))
+                }
+                Sight::Reference => {
+                    let Some(r) = &experiment.reference else { continue };
+                    (Negative::Reference(Arc::clone(r)), [r.width, r.height], &r.mean, None)
+                }
+                Sight::Difference => continue,
+            };
+            if self.pictures.get(sight).is_some_and(|(k, d)| *k == key && d == display) {
+                continue;
+            }
+            self.pictures.insert(*sight, (key, display.clone()));
+            done.insert(*sight, Print { image: develop(size, pixels, display), snapshot, map: None });
+        }
+        done
+    }
+
+    fn maps(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Print> {
+        let Some((map, sights)) = &order.maps else {
+            self.maps = None;
+            return BTreeMap::new();
+        };
+        let mut key: Vec<Negative> =
+            experiment.views.iter().map(|(_, v)| Negative::View(Arc::clone(&v.snapshot))).collect();
+        key.extend(experiment.reference.iter().cloned().map(Negative::Reference));
+        if self.maps.as_ref().is_some_and(|(k, o)| *k == key && o.is_like(order)) {
+            return BTreeMap::new();
+        }
+        self.maps = Some((key, order.clone()));
+        let values: Vec<_> = sights.iter().filter_map(|s| Some((*s, values(map, *s, experiment)?))).collect();
+        let range = Range::of(map.scale, values.iter().map(|(_, (_, v))| v.as_slice()));
+        let print = |(sight, (snapshot, values)): (Sight, (Arc<Snapshot>, Vec<f32>))| {
+            let pixels = values.iter().map(|v| {
+                let [r, g, b] = range.paint(*v);
+                Color32::from_rgb(r, g, b)
+            });
+            let image = ColorImage::new([snapshot.width, snapshot.height], pixels.collect());
+            (
+                sight,
+                Print {
+                    image,
+                    snapshot: Some(snapshot),
+                    map: Some(Arc::new(MapPrint { map, values, range })),
+                },
+            )
+        };
+        values.into_iter().map(print).collect()
+    }
+}
+
+/// A map's values for a view or a difference, with the picture that they belong to.
+fn values(map: &Map, sight: Sight, experiment: &Experiment) -> Option<(Arc<Snapshot>, Vec<f32>)> {
+    let find = |number: usize| experiment.views.iter().find(|(n, _)| *n == number).map(|(_, v)| &v.snapshot);
+    let (snapshot, values) = match sight {
+        Sight::View(number) => {
+            let snapshot = find(number)?;
+            let held = if map.needs_reference { experiment.held_against(number).1 } else { None };
+            (
+                snapshot,
+                map.values(&Estimate::of(snapshot)?, held.as_deref().map(Reference::estimate).as_ref()),
+            )
+        }
+        Sight::Difference => {
+            let Pair(a, b) = experiment.doc.compare.pair;
+            let snapshot = find(a)?;
+            (snapshot, map.values(&Estimate::of(snapshot)?, Some(&Estimate::of(find(b)?)?)))
+        }
+        Sight::Reference => return None,
+    };
+    (values.len() == snapshot.mean.len()).then(|| (Arc::clone(snapshot), values))
+}
+
 /// Applies the display transform to every pixel.
 #[must_use]
-pub fn develop(snapshot: &Snapshot, view: &ViewDoc) -> ColorImage {
+pub fn develop(size: [usize; 2], mean: &[[f32; 3]], view: &ViewDoc) -> ColorImage {
     let transform = DisplayTransform::new(view);
-    let pixels = snapshot
-        .mean
-        .iter()
-        .map(|&mean| {
-            let [r, g, b] = transform.encode(mean);
-            Color32::from_rgb(r, g, b)
-        })
-        .collect();
-    ColorImage::new([snapshot.width, snapshot.height], pixels)
+    let colour = |mean: &[f32; 3]| {
+        let [r, g, b] = transform.encode(*mean);
+        Color32::from_rgb(r, g, b)
+    };
+    ColorImage::new(size, mean.iter().map(colour).collect())
 }

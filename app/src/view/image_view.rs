@@ -26,8 +26,8 @@ impl ImageView {
     pub const FIT: Self = Self { placed: None };
     /// Least and greatest zoom, screen points per image pixel.
     pub const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=256.0;
-    /// Gap that fitting leaves around the picture.
-    const MARGIN: f32 = 16.0;
+    /// Gap that fitting leaves around the picture: this share of the canvas, and at most so many points.
+    const MARGIN: (f32, f32) = (0.02, 16.0);
 
     /// The picture at `zoom` points per pixel, centred.
     #[must_use]
@@ -43,7 +43,9 @@ impl ImageView {
 
     fn resolve(&self, canvas: Rect, image: Vec2) -> Placed {
         self.placed.unwrap_or_else(|| {
-            let room = (canvas.size() - Vec2::splat(2.0 * Self::MARGIN)).max(Vec2::splat(1.0));
+            let (share, most) = Self::MARGIN;
+            let margin = (share * canvas.size().min_elem()).min(most);
+            let room = (canvas.size() - Vec2::splat(2.0 * margin)).max(Vec2::splat(1.0));
             let zoom = (room / image.max(Vec2::splat(1.0))).min_elem();
             Placed {
                 centre: 0.5 * image,
@@ -131,9 +133,9 @@ mod tests {
     #[test]
     fn fitting_shows_everything_with_a_margin() {
         let rect = ImageView::FIT.screen_rect(canvas(), IMAGE);
-        assert!(canvas().shrink(15.9).contains_rect(rect));
+        assert!(canvas().shrink(13.9).contains_rect(rect));
         assert!((rect.center() - canvas().center()).length() < 1e-3);
-        assert!((ImageView::FIT.zoom(canvas(), IMAGE) - 1.0).abs() < 1e-6);
+        assert!((ImageView::FIT.zoom(canvas(), IMAGE) - 964.0 / 960.0).abs() < 1e-5);
     }
 
     #[test]

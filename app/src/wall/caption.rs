@@ -1,0 +1,257 @@
+//! The strip above every picture: which view it is, what it has cost, how far off it is, and its menu.
+
+use super::edit::WallEdit;
+use super::state::Wall;
+use crate::lab::Command;
+use crate::lab::stats::count;
+use crate::theme::{Palette, view_colour};
+use crate::view::developer::Sight;
+use egui::{
+    Align, Color32, CornerRadius, FontId, Frame, Label, Layout, Margin, Rect, RichText, Ui, UiBuilder,
+};
+use majorant_core::compare::{Against, Standing, Verdict, label};
+use majorant_core::estimator;
+use majorant_core::scene::{ReferenceDoc, SceneDoc};
+
+/// Its height.
+pub(super) const HEIGHT: f32 = 26.0;
+/// Below this width only the most important is said.
+const NARROW: f32 = 300.0;
+
+/// A number with three digits, as tables show it.
+#[must_use]
+pub fn digits(value: f64) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    match value.abs() {
+        0.0 => "0".into(),
+        v if !(1e-3..1e4).contains(&v) => format!("{value:.2e}"),
+        v if v < 0.1 => format!("{value:.5}"),
+        v if v < 10.0 => format!("{value:.3}"),
+        _ => format!("{value:.1}"),
+    }
+}
+
+/// `p = .43`, as statisticians write it.
+#[must_use]
+pub fn probability(p: f64) -> String {
+    match p {
+        p if p.is_nan() => "p unknown".into(),
+        p if p < 1e-9 => "p < 10⁻⁹".into(),
+        p if p < 1e-3 => format!("p = {p:.0e}"),
+        p => format!("p = {}", format!("{p:.2}").trim_start_matches('0')),
+    }
+}
+
+/// `+2.1 % ± 0.3 %`.
+#[must_use]
+pub fn percent(difference: f64, error: f64) -> String {
+    format!("{:+.2} % ± {:.2} %", 100.0 * difference, 100.0 * error)
+}
+
+/// The verdict on a view in a few words, with its colour.
+#[must_use]
+pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
+    if let Against::Nothing(_) = standing.against {
+        return match standing.declared_bias {
+            Some(_) => ("biased by choice".into(), palette.error),
+            None => ("–".into(), palette.weak),
+        };
+    }
+    let Some(found) = &standing.agreement else { return ("–".into(), palette.weak) };
+    match found.verdict {
+        Verdict::Agrees => (format!("agrees ({})", probability(found.p)), palette.good),
+        Verdict::Undecided => ("too noisy to tell".into(), palette.weak),
+        Verdict::Differs => {
+            // A bias may even out over the whole: then the block where it is worst is named.
+            let whole = found.z.abs() > 4.0;
+            let (difference, error) = match (whole, found.worst) {
+                (false, Some(worst)) => (worst.difference, worst.error),
+                _ => (found.difference, found.error),
+            };
+            let place = if whole { "" } else { " in a part" };
+            (format!("biased: {}{place}", percent(difference, error)), palette.error)
+        }
+    }
+}
+
+/// Draws the strip; edits go to the commands.
+pub(super) fn caption_ui(
+    ui: &mut Ui,
+    rect: Rect,
+    wall: &Wall,
+    sight: Sight,
+    doc: &SceneDoc,
+    commands: &mut Vec<Command>,
+) {
+    let palette = Palette::get(ui);
+    let selected = sight == Sight::View(wall.selected()) && doc.view_count() > 1;
+    let fill = if selected { palette.accent_fill.gamma_multiply(0.8) } else { palette.bar };
+    ui.painter().rect_filled(rect, 0.0, fill);
+    let inner = rect.shrink2(egui::vec2(6.0, 0.0));
+    let mut child =
+        ui.new_child(UiBuilder::new().max_rect(inner).layout(Layout::left_to_right(Align::Center)));
+    let ui = &mut child;
+    ui.spacing_mut().item_spacing.x = 6.0;
+    let text = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).truncate().selectable(false));
+    match sight {
+        Sight::View(view) => {
+            chip(ui, &label(view), view_colour(view));
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                ui.spacing_mut().item_spacing.x = 6.0;
+                if doc.view_count() > 1 {
+                    menu_ui(ui, view, doc, commands);
+                }
+                numbers_ui(ui, wall, view, rect.width());
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    text(ui, RichText::new(name(doc, view)).color(palette.strong));
+                });
+            });
+        }
+        Sight::Reference => {
+            chip(ui, "R", palette.weak);
+            text(ui, RichText::new("Reference").color(palette.strong));
+            text(ui, RichText::new(wall.reference_state().text).small().color(palette.weak));
+        }
+        Sight::Difference => {
+            let majorant_core::scene::Pair(a, b) = doc.compare.pair;
+            chip(ui, &label(a), view_colour(a));
+            text(ui, RichText::new("minus").color(palette.weak));
+            chip(ui, &label(b), view_colour(b));
+            let names = format!("{} − {}", name(doc, a), name(doc, b));
+            text(ui, RichText::new(names).color(palette.strong));
+        }
+    }
+}
+
+/// The estimator of a view, and what else sets it apart from the scene.
+pub(super) fn name(doc: &SceneDoc, view: usize) -> String {
+    let Some(own) = doc.contender(view) else { return String::new() };
+    let mut name =
+        estimator::find(&own.estimator.id).map_or(own.estimator.id.as_str(), |e| e.name).to_owned();
+    let majorant = &own.majorant;
+    if majorant.factor != 1.0 {
+        name += &format!(", μ̄ × {}", crate::widgets::format_number(majorant.factor.into()));
+    }
+    if majorant.factor < 1.0 && majorant.when_exceeded == majorant_core::scene::WhenExceeded::Clamp {
+        name += " clamped";
+    }
+    if let Some(depth) = own.estimator.max_depth {
+        name += &format!(", depth {depth}");
+    }
+    if own.estimator.mode != doc.estimator.mode {
+        name += if own.estimator.mode == majorant_core::scene::Mode::Rgb { ", RGB" } else { ", spectral" };
+    }
+    name
+}
+
+fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
+    let palette = Palette::get(ui);
+    let analysis = wall.analysis();
+    let small =
+        |text: String, colour| Label::new(RichText::new(text).small().color(colour)).selectable(false);
+    if let Some(standing) = analysis.standing(&label(view)) {
+        let error = analysis.measure.and_then(|m| Some((m, standing.error(m.id)?)));
+        let (text, tip) = match error {
+            Some((measure, measured)) => (
+                format!("{} {}", measure.name, digits(measured.corrected())),
+                format!("{}\n± {} from its scatter over pixels", measure.formula, digits(measured.error)),
+            ),
+            None => (
+                format!("σ² {}", digits(standing.variance)),
+                "Variance of a pixel's mean, over pixels and channels: needs no reference".into(),
+            ),
+        };
+        ui.add(small(text, palette.strong)).on_hover_text(tip);
+        if width > NARROW {
+            let (text, colour) = verdict(standing, palette);
+            ui.add(small(text, colour)).on_hover_text(against(standing));
+        }
+    }
+    let Some(slot) = wall.slots().get(view) else { return };
+    if width > NARROW || analysis.standing(&label(view)).is_none() {
+        ui.add(small(format!("{} spp", count(slot.stats.spp.into())), palette.weak));
+    }
+}
+
+/// What the verdict rests on.
+pub(super) fn against(standing: &Standing) -> String {
+    let with = match &standing.against {
+        Against::Reference(origin) => format!("Held against the reference ({origin})"),
+        Against::Others(labels) => format!("Held against the mean of {labels}"),
+        Against::Nothing(why) => format!("Held against nothing: {why}"),
+    };
+    let bias = standing.declared_bias.map_or_else(String::new, |why| format!("\nBiased by choice: {why}"));
+    let found = standing.agreement.map_or_else(String::new, |a| {
+        format!(
+            "\nMeans differ by {}, z = {:.1}; {} over all blocks",
+            percent(a.difference, a.error),
+            a.z,
+            probability(a.p)
+        )
+    });
+    format!("{with}.{found}{bias}")
+}
+
+/// A view's letter on its colour.
+pub(super) fn chip(ui: &mut Ui, text: &str, colour: Color32) {
+    Frame::NONE.fill(colour).corner_radius(CornerRadius::same(3)).inner_margin(Margin::symmetric(5, 0)).show(
+        ui,
+        |ui| {
+            let text = RichText::new(text).font(FontId::proportional(13.0)).color(Color32::WHITE).strong();
+            ui.add(Label::new(text).selectable(false));
+        },
+    );
+}
+
+/// What can be done with a view.
+fn menu_ui(ui: &mut Ui, view: usize, doc: &SceneDoc, commands: &mut Vec<Command>) {
+    let count = doc.view_count();
+    let button = ui.menu_button(RichText::new("…").strong(), |ui| {
+        let mut item = |ui: &mut Ui, on: bool, text: &str, edit: WallEdit| {
+            if ui.add_enabled(on, egui::Button::new(text)).clicked() {
+                commands.push(Command::Wall(edit));
+                ui.close();
+            }
+        };
+        item(ui, count < majorant_core::scene::MAX_VIEWS, "Duplicate", WallEdit::Duplicate(view));
+        item(ui, count > 1, "Remove", WallEdit::Remove(view));
+        ui.separator();
+        item(ui, view > 0, "Move to the left", WallEdit::Swap(view, view.saturating_sub(1)));
+        item(ui, view + 1 < count, "Move to the right", WallEdit::Swap(view, view + 1));
+        ui.separator();
+        let is_reference = doc.compare.reference == ReferenceDoc::View { view };
+        item(ui, !is_reference, "Make it the reference", WallEdit::Reference(ReferenceDoc::View { view }));
+        item(ui, doc.compare.baseline != view, "Make it the baseline", WallEdit::Baseline(view));
+        ui.separator();
+        let own = view.checked_sub(1).and_then(|i| doc.compare.views.get(i));
+        let camera = own.is_some_and(|v| v.camera.is_some());
+        let display = own.is_some_and(|v| v.view.is_some());
+        let text = if camera { "Share the scene's camera" } else { "Give it a camera of its own" };
+        item(ui, view > 0, text, WallEdit::OwnCamera(view, !camera));
+        let text = if display { "Share the scene's exposure" } else { "Give it an exposure of its own" };
+        item(ui, view > 0, text, WallEdit::OwnDisplay(view, !display));
+    });
+    let name = format!("Menu of view {}", label(view));
+    button
+        .response
+        .accessible_name(name)
+        .on_hover_text("Duplicate, remove, move, make it the reference or baseline");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(probability(0.43), "p = .43");
+        assert_eq!(probability(1.0), "p = 1.00");
+        assert_eq!(probability(2e-5), "p = 2e-5");
+        assert_eq!(percent(0.021, 0.003), "+2.10 % ± 0.30 %");
+        assert_eq!(digits(0.000_123), "1.23e-4");
+        assert_eq!(digits(12.34), "12.3");
+        assert_eq!(digits(f64::NAN), "–");
+    }
+}

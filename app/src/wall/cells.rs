@@ -1,0 +1,302 @@
+//! The pictures: side by side, over each other, one at a time, or their difference.
+
+use super::WallEdit;
+use super::caption::{self, caption_ui};
+use super::legend::{self, legend_ui};
+use super::state::{Tool, Wall};
+use crate::lab::Command;
+use crate::theme::Palette;
+use crate::view::canvas::{Outcome, Shown, canvas_ui};
+use crate::view::developer::Sight;
+use crate::widgets::badge;
+use egui::{
+    Align, Frame, Label, Layout, Margin, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2,
+};
+use majorant_core::compare::label;
+use majorant_core::estimator;
+use majorant_core::scene::{Arrangement, CameraDoc, Pair, SceneDoc};
+use majorant_core::session::Status;
+
+/// Gap between pictures.
+const GAP: f32 = 2.0;
+
+/// What came of a frame.
+#[derive(Default)]
+pub struct Seen {
+    /// The camera of a view, if a gesture moved it.
+    pub camera: Option<(usize, CameraDoc)>,
+    /// The pixel under the pointer, and the sight that it is on.
+    pub pixel: Option<(Sight, [usize; 2])>,
+    /// Points per pixel.
+    pub zoom: f32,
+}
+
+impl Wall {
+    /// Draws the pictures and reads the gestures on them.
+    pub fn cells_ui(&mut self, ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) -> Seen {
+        let (mut rect, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
+        ui.painter().rect_filled(rect, 0.0, Palette::get(ui).canvas);
+        let sights = self.sights();
+        let map = sights.iter().find_map(|s| self.hung(*s)?.map.clone()).filter(|_| self.map().is_some());
+        if let Some(print) = map {
+            let strip = rect.with_min_y(rect.bottom() - legend::HEIGHT);
+            legend_ui(ui, strip, &print);
+            rect.max.y = strip.top();
+        }
+        let mut seen = Seen { zoom: 1.0, ..Seen::default() };
+        match doc.compare.arrangement {
+            Arrangement::Wipe if self.slots().len() > 1 => self.wipe_ui(ui, rect, doc, &mut seen, commands),
+            Arrangement::Flip => {
+                let sight = sights.get(self.flipped % sights.len().max(1)).copied().unwrap_or(Sight::View(0));
+                self.cell_ui(ui, rect, sight, doc, &mut seen, commands);
+            }
+            _ => {
+                let aspect = doc.film.width as f32 / doc.film.height.max(1) as f32;
+                let captioned = sights.len() > 1;
+                for (cell, sight) in grid(rect, sights.len(), aspect, captioned).into_iter().zip(sights) {
+                    self.cell_ui(ui, cell, sight, doc, &mut seen, commands);
+                }
+            }
+        }
+        seen
+    }
+
+    fn cell_ui(
+        &mut self,
+        ui: &mut Ui,
+        mut rect: Rect,
+        sight: Sight,
+        doc: &SceneDoc,
+        seen: &mut Seen,
+        commands: &mut Vec<Command>,
+    ) {
+        let whole = rect;
+        if doc.view_count() > 1 || sight != Sight::View(0) || self.sights().len() > 1 {
+            caption_ui(ui, rect.with_max_y(rect.top() + caption::HEIGHT), self, sight, doc, commands);
+            rect.min.y += caption::HEIGHT;
+        }
+        let outcome = self.canvas(ui, rect, sight, None, doc);
+        self.take(outcome, sight, seen, commands);
+        self.remarks_ui(ui, rect, sight, doc);
+        if sight == Sight::View(self.selected()) && doc.view_count() > 1 {
+            let stroke = Stroke::new(1.5, Palette::get(ui).accent);
+            ui.painter().rect_stroke(whole, 0.0, stroke, StrokeKind::Inside);
+        }
+    }
+
+    fn wipe_ui(
+        &mut self,
+        ui: &mut Ui,
+        mut rect: Rect,
+        doc: &SceneDoc,
+        seen: &mut Seen,
+        commands: &mut Vec<Command>,
+    ) {
+        let Pair(a, b) = doc.compare.pair;
+        let middle = rect.center().x;
+        let top = rect.with_max_y(rect.top() + caption::HEIGHT);
+        caption_ui(ui, top.with_max_x(middle - 1.0), self, Sight::View(a), doc, commands);
+        caption_ui(ui, top.with_min_x(middle + 1.0), self, Sight::View(b), doc, commands);
+        rect.min.y += caption::HEIGHT;
+        let outcome = self.canvas(ui, rect, Sight::View(a), Some(Sight::View(b)), doc);
+        if let Some(split) = outcome.split {
+            self.split = split;
+        }
+        self.take(outcome, Sight::View(a), seen, commands);
+        // Each picture says at its own side of the divider what it is.
+        let x = egui::lerp(rect.x_range(), self.split);
+        let mut side = |rect: Rect, layout: Layout, view: usize| {
+            let mut child = ui.new_child(UiBuilder::new().max_rect(rect.shrink(8.0)).layout(layout));
+            child.set_clip_rect(rect);
+            let strip = Frame::NONE
+                .fill(Palette::get(&child).panel.gamma_multiply(0.85))
+                .inner_margin(Margin::symmetric(4, 2));
+            strip.corner_radius(4).show(&mut child, |ui| {
+                ui.horizontal(|ui| {
+                    caption::chip(ui, &label(view), crate::theme::view_colour(view));
+                    let name = RichText::new(caption::name(doc, view)).small().color(Palette::get(ui).strong);
+                    ui.add(Label::new(name).selectable(false));
+                });
+            });
+        };
+        let bottom = rect.with_min_y(rect.bottom() - 38.0);
+        side(bottom.with_max_x(x), Layout::right_to_left(Align::Center), a);
+        side(bottom.with_min_x(x), Layout::left_to_right(Align::Center), b);
+    }
+
+    fn canvas(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        sight: Sight,
+        second: Option<Sight>,
+        doc: &SceneDoc,
+    ) -> Outcome {
+        let view = match sight {
+            Sight::View(view) => view,
+            Sight::Reference | Sight::Difference => 0,
+        };
+        let camera = doc.view_doc(view).map_or_else(|| doc.camera.clone(), |d| d.camera);
+        let display = self.display(sight);
+        let hung = self.hung(sight);
+        let failed = matches!(self.slots().get(view).map(|s| &s.state.status), Some(Status::Failed(_)));
+        let name = match sight {
+            Sight::View(0) if doc.view_count() == 1 => "Rendered image".to_owned(),
+            Sight::View(view) => format!("View {}", label(view)),
+            Sight::Reference => "Reference".to_owned(),
+            Sight::Difference => "Difference".to_owned(),
+        };
+        let shown = Shown {
+            texture: hung.map(|h| &h.texture),
+            snapshot: hung.and_then(|h| h.snapshot.as_deref()),
+            dimmed: failed && sight != Sight::Reference,
+            display: hung.is_some_and(|h| h.map.is_none()).then_some(&display),
+            wipe: second.map(|s| (self.hung(s).map(|h| &h.texture), self.split)),
+            region: doc.compare.region,
+            picked: self.picked,
+            draws_region: self.tool == Tool::Region,
+            name: &name,
+        };
+        let film = vec2(doc.film.width as f32, doc.film.height as f32);
+        let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("cell", sight)));
+        child.set_clip_rect(rect.intersect(ui.clip_rect()));
+        canvas_ui(&mut child, &shown, self.zoom_of(sight), &camera, film)
+    }
+
+    fn take(&mut self, outcome: Outcome, sight: Sight, seen: &mut Seen, commands: &mut Vec<Command>) {
+        if outcome.view != self.zoom_of(sight) {
+            self.set_zoom(sight, outcome.view);
+        }
+        seen.zoom = outcome.zoom;
+        if let Some(pixel) = outcome.pixel {
+            seen.pixel = Some((sight, pixel));
+        }
+        if let Some(pixel) = outcome.clicked {
+            self.picked = if self.picked == Some(pixel) { None } else { Some(pixel) };
+        }
+        if let Some(region) = outcome.region {
+            commands.push(Command::Wall(WallEdit::Region(region)));
+            self.tool = Tool::Camera;
+        }
+        if let Sight::View(view) = sight {
+            if outcome.touched {
+                commands.push(Command::SelectView(view));
+            }
+            if let Some(camera) = outcome.camera {
+                seen.camera = Some((view, camera));
+            }
+        }
+    }
+
+    /// What has to be known about a picture to read it rightly, in its corner.
+    fn remarks_ui(&self, ui: &mut Ui, canvas: Rect, sight: Sight, doc: &SceneDoc) {
+        let palette = Palette::get(ui);
+        let area = Rect::from_min_size(canvas.min + vec2(10.0, 8.0), vec2(canvas.width() - 20.0, 22.0));
+        let mut child =
+            ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
+        if let Sight::View(view) = sight {
+            let own = doc.view_doc(view);
+            let bias = own.as_ref().and_then(|d| estimator::find(&d.estimator.id)?.bias(d));
+            if let Some(reason) = bias {
+                badge(&mut child, palette.error, &format!("biased: {reason}"));
+            }
+            let hung = self.hung(sight);
+            if hung.and_then(|h| h.snapshot.as_ref()).is_some_and(|s| s.coarse.is_some()) {
+                badge(&mut child, palette.accent, "preview");
+            }
+            if let Some(Status::Failed(text)) = self.slots().get(view).map(|s| &s.state.status) {
+                failure_ui(ui, canvas, text, hung.is_some());
+            }
+        }
+        if let Some(map) = self.map().filter(|_| self.hung(sight).is_none_or(|h| h.map.is_none())) {
+            let text = match (map.needs_reference, sight) {
+                (true, Sight::View(_)) => {
+                    "Nothing to hold this view against yet: choose a reference above, or add a view that shows the \
+                     same image."
+                }
+                _ => "A few samples per pixel more, and this map appears.",
+            };
+            empty_ui(ui, canvas, map.name, text);
+        }
+    }
+}
+
+/// Cells for pictures of an aspect ratio, so that these are as large as can be.
+fn grid(rect: Rect, count: usize, aspect: f32, captioned: bool) -> Vec<Rect> {
+    let count = count.max(1);
+    let caption = if captioned { caption::HEIGHT } else { 0.0 };
+    let size = |columns: usize| {
+        let rows = count.div_ceil(columns);
+        vec2(
+            (rect.width() - GAP * (columns - 1) as f32) / columns as f32,
+            (rect.height() - GAP * (rows - 1) as f32) / rows as f32,
+        )
+    };
+    let picture = |columns: usize| {
+        let room = size(columns) - vec2(0.0, caption);
+        room.x.min(room.y * aspect)
+    };
+    let columns = (1..=count).max_by(|a, b| picture(*a).total_cmp(&picture(*b))).unwrap_or(1);
+    let cell: Vec2 = size(columns);
+    (0..count)
+        .map(|i| {
+            let at = vec2((i % columns) as f32, (i / columns) as f32);
+            Rect::from_min_size(rect.min + at * (cell + Vec2::splat(GAP)), cell)
+        })
+        .collect()
+}
+
+/// Why there is nothing to see, and what to do.
+fn empty_ui(ui: &mut Ui, canvas: Rect, title: &str, text: &str) {
+    let palette = Palette::get(ui);
+    let width = (canvas.width() - 32.0).clamp(100.0, 320.0);
+    let area = Rect::from_min_size(
+        pos2(canvas.center().x - 0.5 * width, canvas.center().y - 30.0),
+        vec2(width, 60.0),
+    );
+    let mut child = ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::top_down(Align::Center)));
+    child.set_clip_rect(canvas);
+    child.add(Label::new(RichText::new(title).color(palette.strong)).selectable(false));
+    child.add(Label::new(RichText::new(text).small().color(palette.text)).wrap().selectable(false));
+}
+
+/// Why nothing new is shown, over the last picture.
+fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
+    let palette = Palette::get(ui);
+    let width = (canvas.width() - 64.0).clamp(120.0, 560.0);
+    let left = canvas.left() + 0.5 * (canvas.width() - width);
+    let area = Rect::from_min_size(pos2(left, canvas.top() + 44.0), vec2(width, 10.0));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(area));
+    let frame =
+        Frame::popup(child.style()).inner_margin(Margin::same(14)).stroke(Stroke::new(1.0, palette.error));
+    frame.show(&mut child, |ui| {
+        ui.set_width(width - 28.0);
+        ui.label(RichText::new("This scene cannot be rendered").color(palette.error));
+        ui.add(Label::new(RichText::new(text).color(palette.strong)).wrap());
+        let kept = "Your edits are kept: correct them, or take them back with Ctrl + Z.";
+        let kept =
+            if pictured { format!("The last picture is shown, dimmed. {kept}") } else { kept.to_owned() };
+        ui.add(Label::new(RichText::new(kept).small().color(palette.weak)).wrap());
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_do_not_overlap_and_pictures_are_as_large_as_can_be() {
+        let rect = Rect::from_min_size(pos2(10.0, 20.0), vec2(800.0, 600.0));
+        for count in 1..=7 {
+            let cells = grid(rect, count, 4.0 / 3.0, true);
+            assert_eq!(cells.len(), count);
+            for (i, a) in cells.iter().enumerate() {
+                assert!(rect.expand(0.1).contains_rect(*a));
+                assert!(cells[..i].iter().all(|b| !a.shrink(0.5).intersects(b.shrink(0.5))));
+            }
+        }
+        // Two wide pictures stand one above the other, two upright ones side by side.
+        assert_eq!(grid(rect, 2, 3.0, false)[1].left(), rect.left());
+        assert_eq!(grid(rect, 2, 0.5, false)[1].top(), rect.top());
+    }
+}

@@ -1,0 +1,100 @@
+//! Numbers below the pictures. A file and a line in [`TABS`] add a tab.
+
+mod curves;
+mod pixel;
+mod plots;
+mod ranking;
+mod scanline;
+
+use super::state::Wall;
+use crate::lab::Command;
+use crate::theme::Palette;
+use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
+use majorant_core::scene::SceneDoc;
+
+/// What a tab sees.
+pub struct Cx<'a> {
+    /// The wall.
+    pub wall: &'a Wall,
+    /// The document.
+    pub doc: &'a SceneDoc,
+    /// What it asks for.
+    pub commands: &'a mut Vec<Command>,
+}
+
+/// Numbers of one kind.
+pub trait Tab: Sync {
+    /// A stable id.
+    fn id(&self) -> &'static str;
+    /// Its heading.
+    fn title(&self) -> &'static str;
+    /// Its content.
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
+    /// The same as text, for a spreadsheet; none if there is nothing yet.
+    fn csv(&self, cx: &Cx<'_>) -> Option<String>;
+}
+
+/// Every tab, from left to right.
+pub const TABS: &[&dyn Tab] = &[&ranking::Ranking, &curves::Curves, &pixel::Pixel, &scanline::Scanline];
+
+/// Draws the dock; `chosen` is the id of its tab.
+pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
+    let palette = Palette::get(ui);
+    let tab = TABS.iter().find(|t| t.id() == chosen).unwrap_or(&TABS[0]);
+    Frame::NONE.fill(palette.bar).inner_margin(Margin::symmetric(8, 3)).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            for t in TABS {
+                let on = t.id() == tab.id();
+                let text =
+                    RichText::new(t.title()).small().color(if on { palette.strong } else { palette.text });
+                if ui.add(Button::selectable(on, text)).clicked() {
+                    cx.commands.push(Command::ShowTab(t.id()));
+                }
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let csv = tab.csv(cx);
+                let button = Button::new(RichText::new("Copy as CSV").small());
+                if ui.add_enabled(csv.is_some(), button).clicked()
+                    && let Some(csv) = csv
+                {
+                    ui.ctx().copy_text(csv);
+                }
+                if let Some((_, found)) = cx.wall.analysis().pair.filter(|_| cx.doc.view_count() > 1) {
+                    let (text, colour) = pair_verdict(cx, &found, palette);
+                    ui.add(
+                        Label::new(RichText::new(text).small().color(colour)).truncate().selectable(false),
+                    );
+                }
+            });
+        });
+    });
+    Frame::NONE.inner_margin(Margin::same(6)).show(ui, |ui| tab.ui(ui, cx));
+}
+
+/// "A and B agree (p = .43)".
+fn pair_verdict(
+    cx: &Cx<'_>,
+    found: &majorant_core::compare::Agreement,
+    palette: &Palette,
+) -> (String, egui::Color32) {
+    use super::caption::{percent, probability};
+    use majorant_core::compare::{Verdict, label};
+    let majorant_core::scene::Pair(a, b) = cx.doc.compare.pair;
+    let (a, b) = (label(a), label(b));
+    let place = if cx.doc.compare.region.is_some() { " in the box" } else { "" };
+    match found.verdict {
+        Verdict::Agrees => (format!("{a} and {b} agree{place} ({})", probability(found.p)), palette.good),
+        Verdict::Undecided => (format!("{a} and {b}: too noisy to tell{place}"), palette.weak),
+        Verdict::Differs => {
+            (format!("{a} and {b} differ: {}{place}", percent(found.difference, found.error)), palette.error)
+        }
+    }
+}
+
+/// What to do so that there is something to see.
+fn empty(ui: &mut Ui, text: &str) {
+    ui.add_space(12.0);
+    ui.vertical_centered(|ui| ui.label(RichText::new(text).color(Palette::get(ui).weak)));
+}

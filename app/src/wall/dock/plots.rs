@@ -1,0 +1,43 @@
+//! What plots of this room share.
+
+use crate::wall::caption::digits;
+use egui::Ui;
+use egui_plot::{GridMark, Legend, Plot, log_grid_spacer};
+use std::ops::RangeInclusive;
+
+/// A plot that fills the room; `log` says which axes hold logarithms to base 10.
+pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)) -> Plot<'a> {
+    let format = |log: bool| {
+        move |mark: GridMark, _: &RangeInclusive<f64>| {
+            if !log {
+                return digits(mark.value);
+            }
+            // Only whole decades are named.
+            let decade = mark.value.round();
+            if (mark.value - decade).abs() > 1e-6 { String::new() } else { power_of_ten(decade as i32) }
+        }
+    };
+    let mut plot = Plot::new(id.to_owned())
+        .legend(Legend::default())
+        .height(ui.available_height().max(80.0))
+        .x_axis_label(names.0.to_owned())
+        .y_axis_label(names.1.to_owned())
+        .x_axis_formatter(format(log.0))
+        .y_axis_formatter(format(log.1))
+        .allow_scroll(false);
+    if log.0 {
+        plot = plot.x_grid_spacer(log_grid_spacer(10));
+    }
+    if log.1 {
+        plot = plot.y_grid_spacer(log_grid_spacer(10));
+    }
+    plot
+}
+
+/// `0.01`, `100`, or `1e-5`.
+fn power_of_ten(exponent: i32) -> String {
+    match exponent {
+        -3..=4 => format!("{}", 10f64.powi(exponent)),
+        _ => format!("1e{exponent}"),
+    }
+}

@@ -1,0 +1,260 @@
+//! Which view wins, by how much, and how sure that is.
+
+use super::{Cx, Tab, empty};
+use crate::lab::Command;
+use crate::lab::stats::{count, duration};
+use crate::theme::{Palette, view_colour};
+use crate::wall::WallEdit;
+use crate::wall::caption::{against, chip, digits, verdict};
+use egui::{Align, Color32, Layout, RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder};
+use majorant_core::compare::Standing;
+use majorant_core::measure::{self, Measure};
+use std::fmt::Write;
+
+/// See the [module](self).
+pub struct Ranking;
+
+/// Below this width columns are left out that others imply.
+const NARROW: f32 = 760.0;
+
+/// Columns of numbers, what they are, and whether they stay in a narrow table.
+const HEADINGS: &[(&str, &str, bool)] = &[
+    ("spp", "Samples per pixel", true),
+    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", true),
+    ("look-ups", "Evaluations of the medium per path", false),
+    ("", "", true),
+    ("variance", "Variance of a pixel's mean, over pixels and channels", true),
+    ("colour", "The part of the variance that is colour noise: perpendicular to grey", true),
+    ("efficiency", "1 / (variance · CPU seconds)", false),
+    (
+        "speed-up",
+        "Efficiency over that of the baseline, with its 95 % interval: from the variance's own error and the scatter of the cost",
+        true,
+    ),
+];
+
+impl Tab for Ranking {
+    fn id(&self) -> &'static str {
+        "ranking"
+    }
+    fn title(&self) -> &'static str {
+        "Ranking"
+    }
+    fn csv(&self, cx: &Cx<'_>) -> Option<String> {
+        let standings = &cx.wall.analysis().standings;
+        let mut text = String::from(
+            "view,estimator,spp,cpu_seconds,lookups_per_path,relmse,variance,chroma_variance,efficiency,speedup,speedup_low,speedup_high,bias_z,p,verdict\n",
+        );
+        for s in standings {
+            let relmse = s.error("relmse").map_or(f64::NAN, measure::Measured::corrected);
+            let (z, p) = s.agreement.map_or((f64::NAN, f64::NAN), |a| (a.z, a.p));
+            let [lo, hi] = s.speedup_interval;
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                text,
+                "{},{},{},{},{},{relmse},{},{},{},{},{lo},{hi},{z},{p},{}",
+                s.label,
+                s.estimator,
+                s.spp,
+                s.cpu_seconds,
+                s.lookups_per_path,
+                s.variance,
+                s.chroma_variance,
+                s.efficiency,
+                s.speedup,
+                s.verdict()
+            );
+        }
+        (!standings.is_empty()).then_some(text)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let analysis = cx.wall.analysis().clone();
+        if analysis.standings.is_empty() {
+            return empty(ui, "Three samples per pixel, and the first numbers appear.");
+        }
+        // The one with the best efficiency is marked, if its lead over the second is beyond doubt.
+        let winner = winner(&analysis.standings);
+        let measure = analysis.measure;
+        let row_height = 21.0 * ui.text_style_height(&egui::TextStyle::Small) / 14.0 + 2.0;
+        let wide = ui.available_width() > NARROW;
+        let columns = HEADINGS.iter().filter(|h| wide || h.2).count();
+        egui::ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
+            let table = TableBuilder::new(ui)
+                .striped(true)
+                .cell_layout(Layout::right_to_left(Align::Center))
+                .column(Column::exact(28.0))
+                .column(Column::auto().at_least(104.0))
+                .columns(Column::auto().at_least(44.0), columns - 1)
+                .column(Column::auto().at_least(96.0))
+                .column(Column::remainder().at_least(150.0));
+            table
+                .header(row_height, |mut header| {
+                    heading(&mut header, "", "");
+                    heading(&mut header, "estimator", "");
+                    for (text, tip, _) in HEADINGS.iter().filter(|h| wide || h.2) {
+                        let (text, tip) = match measure.filter(|_| text.is_empty()) {
+                            Some(m) => (m.name, m.formula),
+                            None => (*text, *tip),
+                        };
+                        heading(&mut header, text, tip);
+                    }
+                    heading(
+                        &mut header,
+                        "bias",
+                        "What holding it against the reference, or the other unbiased views, has found",
+                    );
+                })
+                .body(|mut body| {
+                    for s in &analysis.standings {
+                        body.row(row_height, |mut row| {
+                            line(&mut row, cx, s, measure, (winner == Some(s.label.as_str()), wide));
+                        });
+                    }
+                });
+        });
+        footnote(ui, cx, &analysis.standings);
+    }
+}
+
+fn heading(row: &mut egui_extras::TableRow<'_, '_>, text: &str, tip: &str) {
+    row.col(|ui| {
+        let response = ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
+        if !tip.is_empty() {
+            response.on_hover_text(tip);
+        }
+    });
+}
+
+fn line(
+    row: &mut egui_extras::TableRow<'_, '_>,
+    cx: &mut Cx<'_>,
+    s: &Standing,
+    measure: Option<&'static Measure>,
+    (wins, wide): (bool, bool),
+) {
+    let view = (0..cx.doc.view_count()).find(|v| majorant_core::compare::label(*v) == s.label).unwrap_or(0);
+    let error = measure.and_then(|m| s.error(m.id));
+    let excluded = if s.excluded > 0 {
+        format!("{} of {} pixels have no value and are left out", s.excluded, s.pixels)
+    } else {
+        String::new()
+    };
+    let cells = [
+        (count(s.spp.into()), excluded),
+        (duration_short(s.cpu_seconds), duration(s.cpu_seconds)),
+        (count(s.lookups_per_path), String::new()),
+        (
+            error.map_or_else(|| "–".into(), |e| digits(e.corrected())),
+            error.map_or_else(String::new, |e| {
+                format!(
+                    "± {} from its scatter over pixels; {} taken off for the reference's own noise",
+                    digits(e.error),
+                    digits(e.reference_share)
+                )
+            }),
+        ),
+        (digits(s.variance), format!("± {}", digits(s.variance_error))),
+        (format!("{:.0} %", 100.0 * s.chroma_variance / s.variance), digits(s.chroma_variance)),
+        (digits(s.efficiency), String::new()),
+    ];
+    row.col(|ui| chip(ui, &s.label, view_colour(view)));
+    row.col(|ui| {
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let palette = Palette::get(ui);
+            let text = RichText::new(&s.name).small().color(palette.strong);
+            ui.add(egui::Label::new(text).truncate().selectable(false));
+            if wins {
+                ui.label(RichText::new("best").small().color(palette.good))
+                    .on_hover_text("Its efficiency leads by more than the 95 % intervals leave in doubt");
+            }
+        });
+    });
+    for ((text, tip), _) in cells.into_iter().zip(HEADINGS).filter(|(_, h)| wide || h.2) {
+        row.col(|ui| {
+            let response = ui.label(RichText::new(text).monospace().size(12.0).color(Palette::get(ui).text));
+            if !tip.is_empty() {
+                response.on_hover_text(tip);
+            }
+        });
+    }
+    row.col(|ui| speedup_ui(ui, cx, s, view));
+    row.col(|ui| {
+        let (text, colour): (String, Color32) = verdict(s, Palette::get(ui));
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.label(RichText::new(text).small().color(colour)).on_hover_text(against(s));
+        });
+    });
+}
+
+fn speedup_ui(ui: &mut Ui, cx: &mut Cx<'_>, s: &Standing, view: usize) {
+    let palette = Palette::get(ui);
+    let baseline = cx.doc.compare.baseline == view;
+    let text = if baseline {
+        RichText::new("baseline").small().color(palette.weak)
+    } else {
+        let [lo, hi] = s.speedup_interval;
+        let sure = lo > 1.0 || hi < 1.0;
+        let colour = if sure { palette.strong } else { palette.weak };
+        let interval =
+            if hi.is_finite() { format!(" [{}, {}]", factor(lo), factor(hi)) } else { String::new() };
+        RichText::new(format!("{}×{interval}", factor(s.speedup))).monospace().size(12.0).color(colour)
+    };
+    let response = ui.add(egui::Label::new(text).selectable(false).sense(Sense::click()));
+    if response.on_hover_text("Click: make this view the baseline").clicked() && !baseline {
+        cx.commands.push(Command::Wall(WallEdit::Baseline(view)));
+    }
+}
+
+/// The view whose efficiency leads all others beyond doubt.
+fn winner(standings: &[Standing]) -> Option<&str> {
+    if standings.len() < 2 {
+        return None;
+    }
+    let best = standings
+        .iter()
+        .filter(|s| s.declared_bias.is_none())
+        .max_by(|a, b| a.speedup.total_cmp(&b.speedup))?;
+    let clear = standings.iter().filter(|s| s.label != best.label).all(|other| {
+        // Intervals of the baseline are those of the other one.
+        best.speedup_interval[0] > other.speedup_interval[1].max(other.speedup)
+    });
+    clear.then_some(best.label.as_str())
+}
+
+/// A ratio with three digits.
+fn factor(ratio: f64) -> String {
+    match ratio {
+        r if r < 0.001 => format!("{r:.1e}"),
+        r if r < 0.1 => format!("{r:.4}"),
+        r if r < 10.0 => format!("{r:.2}"),
+        r => format!("{r:.0}"),
+    }
+}
+
+fn duration_short(seconds: f64) -> String {
+    if seconds < 100.0 { format!("{seconds:.1}") } else { format!("{seconds:.0}") }
+}
+
+/// What the numbers are about.
+fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
+    use majorant_core::scene::Fairness;
+    let fair = match cx.doc.compare.fairness {
+        Fairness::Time => "equal CPU time",
+        Fairness::Samples => "equal samples",
+        Fairness::Lookups => "equal look-ups",
+    };
+    let place = match cx.doc.compare.region {
+        Some([x0, y0, x1, y1]) => format!("the box {} × {} at ({x0}, {y0})", x1 - x0, y1 - y0),
+        None => "the whole image".to_owned(),
+    };
+    let excluded: u64 = standings.iter().map(|s| s.excluded).sum();
+    let excluded = if excluded > 0 {
+        format!("; {excluded} pixels without a finite value left out")
+    } else {
+        String::new()
+    };
+    let text = format!("Over {place}, at {fair}{excluded}. Reference: {}.", cx.wall.reference_state().text);
+    ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
+}

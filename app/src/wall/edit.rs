@@ -1,0 +1,224 @@
+//! What a comparison can be asked to become: pure edits of the document.
+
+use majorant_core::scene::{
+    Arrangement, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc, SceneDoc,
+};
+
+/// An edit of the comparison. Views count from 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WallEdit {
+    /// So many views: new ones take the estimators that are not shown yet, surplus ones go from the end.
+    Count(usize),
+    /// One more view like this one.
+    Duplicate(usize),
+    /// This view goes; the last one stays.
+    Remove(usize),
+    /// These two change places.
+    Swap(usize, usize),
+    /// How the views share the window.
+    Arrange(Arrangement),
+    /// The two views of a wipe or a difference.
+    Pair(Pair),
+    /// What is shown of every view.
+    Layer(String),
+    /// What every view gets as much of.
+    Fairness(Fairness),
+    /// What errors are measured against.
+    Reference(ReferenceDoc),
+    /// Which view speed-ups are relative to.
+    Baseline(usize),
+    /// The measure of error.
+    Measure(String),
+    /// The pixels that numbers are about.
+    Region(Option<[u32; 4]>),
+    /// Whether a view has a camera of its own.
+    OwnCamera(usize, bool),
+    /// Whether a view has an exposure of its own.
+    OwnDisplay(usize, bool),
+    /// Whether every view has a zoom of its own.
+    OwnZoom(bool),
+}
+
+/// The document after an edit; one that makes no sense changes nothing.
+#[must_use]
+pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
+    let mut doc = doc.clone();
+    let count = doc.view_count();
+    match edit {
+        WallEdit::Count(wanted) => {
+            let wanted = (*wanted).clamp(1, MAX_VIEWS);
+            while doc.view_count() < wanted {
+                let next = next_contender(&doc);
+                doc.compare.views.push(next);
+            }
+            doc.compare.views.truncate(wanted - 1);
+        }
+        WallEdit::Duplicate(view) if count < MAX_VIEWS => {
+            if let Some(copy) = doc.contender(*view) {
+                let seed = doc.free_seed();
+                doc.compare.views.insert(*view, ContenderDoc { seed, ..copy });
+                follow(&mut doc, |at| if at > *view { at + 1 } else { at });
+            }
+        }
+        WallEdit::Remove(view) if count > 1 && *view < count => remove(&mut doc, *view),
+        WallEdit::Swap(a, b) if a != b && *a < count && *b < count => swap(&mut doc, *a, *b),
+        WallEdit::Duplicate(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
+        WallEdit::Arrange(arrangement) => doc.compare.arrangement = *arrangement,
+        WallEdit::Pair(pair) => doc.compare.pair = *pair,
+        WallEdit::Layer(id) => doc.compare.layer = Layer(id.clone()),
+        WallEdit::Fairness(fairness) => doc.compare.fairness = *fairness,
+        WallEdit::Reference(reference) => doc.compare.reference = reference.clone(),
+        WallEdit::Baseline(view) => doc.compare.baseline = *view,
+        WallEdit::Measure(id) => doc.compare.measure = MeasureId(id.clone()),
+        WallEdit::Region(region) => doc.compare.region = *region,
+        WallEdit::OwnZoom(own) => doc.compare.own_zoom = *own,
+        WallEdit::OwnCamera(view, own) => {
+            let camera = own.then(|| doc.camera.clone());
+            if let Some(contender) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
+                contender.camera = camera;
+            }
+        }
+        WallEdit::OwnDisplay(view, own) => {
+            let display = own.then(|| doc.view.clone());
+            if let Some(contender) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
+                contender.view = display;
+            }
+        }
+    }
+    keep_in_range(&mut doc);
+    doc
+}
+
+/// A further view: the first estimator that no view has, else the scene's once more, with its own seed.
+fn next_contender(doc: &SceneDoc) -> ContenderDoc {
+    let taken: Vec<String> =
+        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
+    let mut next = doc.contender(0).unwrap_or_default();
+    let free = majorant_core::estimator::REGISTRY.iter().find(|e| !taken.iter().any(|id| id == e.id));
+    if let Some(entry) = free {
+        entry.id.clone_into(&mut next.estimator.id);
+    }
+    next.seed = doc.free_seed();
+    next
+}
+
+/// What view A has of its own becomes that of another contender.
+fn become_first(doc: &mut SceneDoc, first: ContenderDoc) {
+    doc.estimator = first.estimator;
+    doc.medium.majorant = first.majorant;
+    doc.render.seed = first.seed;
+    if let Some(camera) = first.camera {
+        doc.camera = camera;
+    }
+    if let Some(view) = first.view {
+        doc.view = view;
+    }
+}
+
+fn remove(doc: &mut SceneDoc, view: usize) {
+    if view == 0 {
+        let first = doc.compare.views.remove(0);
+        become_first(doc, first);
+    } else {
+        doc.compare.views.remove(view - 1);
+    }
+    if doc.compare.reference == (ReferenceDoc::View { view }) {
+        doc.compare.reference = ReferenceDoc::None;
+    }
+    follow(doc, |at| if at > view { at - 1 } else { at });
+}
+
+/// What points at views follows them to their new places.
+fn follow(doc: &mut SceneDoc, moved: impl Fn(usize) -> usize) {
+    if let ReferenceDoc::View { view } = &mut doc.compare.reference {
+        *view = moved(*view);
+    }
+    doc.compare.baseline = moved(doc.compare.baseline);
+    let Pair(a, b) = doc.compare.pair;
+    doc.compare.pair = Pair(moved(a), moved(b));
+}
+
+fn swap(doc: &mut SceneDoc, a: usize, b: usize) {
+    let (a, b) = (a.min(b), a.max(b));
+    if a > 0 {
+        doc.compare.views.swap(a - 1, b - 1);
+    } else if let Some(first) = doc.contender(0) {
+        // A camera of its own would become everybody's: the places change, the cameras stay.
+        let second = std::mem::replace(&mut doc.compare.views[b - 1], first);
+        let (camera, view) = (second.camera.clone(), second.view.clone());
+        become_first(doc, ContenderDoc { camera: None, view: None, ..second });
+        (doc.compare.views[b - 1].camera, doc.compare.views[b - 1].view) = (camera, view);
+    }
+}
+
+/// Numbers of views that are gone point to those that are there.
+fn keep_in_range(doc: &mut SceneDoc) {
+    let count = doc.view_count();
+    let compare = &mut doc.compare;
+    compare.baseline = compare.baseline.min(count - 1);
+    if matches!(compare.reference, ReferenceDoc::View { view } if view >= count) {
+        compare.reference = ReferenceDoc::None;
+    }
+    let Pair(a, b) = compare.pair;
+    if a >= count || b >= count || a == b {
+        compare.pair = Pair(0, usize::from(count > 1));
+    }
+    if count == 1 && compare.arrangement != Arrangement::Flip {
+        compare.arrangement = Arrangement::Grid;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::estimator::validate;
+
+    fn ids(doc: &SceneDoc) -> Vec<String> {
+        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect()
+    }
+
+    fn after(doc: &SceneDoc, edits: &[WallEdit]) -> SceneDoc {
+        let doc = edits.iter().fold(doc.clone(), |doc, edit| edited(&doc, edit));
+        assert_eq!(validate(&doc), [], "{edits:?}");
+        doc
+    }
+
+    #[test]
+    fn new_views_show_what_is_not_shown_yet_with_seeds_of_their_own() {
+        let doc = after(&SceneDoc::default(), &[WallEdit::Count(4)]);
+        assert_eq!(ids(&doc), ["uni-nee-mis", "independent", "spectral-mis", "nee"]);
+        let mut seeds: Vec<u64> = doc.view_docs().iter().map(|d| d.render.seed).collect();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 4);
+        assert_eq!(after(&doc, &[WallEdit::Count(1)]), SceneDoc::default());
+        assert_eq!(after(&doc, &[WallEdit::Count(99)]).view_count(), MAX_VIEWS);
+    }
+
+    #[test]
+    fn views_are_removed_swapped_and_copied_and_what_points_at_them_follows() {
+        let doc = after(
+            &SceneDoc::default(),
+            &[
+                WallEdit::Count(3),
+                WallEdit::Baseline(2),
+                WallEdit::Reference(ReferenceDoc::View { view: 2 }),
+                WallEdit::Pair(Pair(1, 2)),
+            ],
+        );
+        let removed = after(&doc, &[WallEdit::Remove(0)]);
+        assert_eq!(ids(&removed), ["independent", "spectral-mis"]);
+        assert_eq!((removed.compare.baseline, removed.compare.pair), (1, Pair(0, 1)));
+        assert_eq!(removed.compare.reference, ReferenceDoc::View { view: 1 });
+        let gone = after(&doc, &[WallEdit::Remove(2)]);
+        assert_eq!((gone.compare.baseline, &gone.compare.reference), (1, &ReferenceDoc::None));
+        let swapped = after(&doc, &[WallEdit::Swap(0, 2)]);
+        assert_eq!(ids(&swapped), ["spectral-mis", "independent", "uni-nee-mis"]);
+        assert_eq!(after(&swapped, &[WallEdit::Swap(2, 0)]), doc);
+        let copied = after(&doc, &[WallEdit::Duplicate(1)]);
+        assert_eq!((copied.compare.baseline, copied.compare.pair), (3, Pair(1, 3)));
+        assert_eq!(ids(&copied), ["uni-nee-mis", "independent", "independent", "spectral-mis"]);
+        assert_eq!(copied.view_doc(2).map(|d| d.render.seed), Some(3));
+        let only = SceneDoc::default();
+        assert_eq!(after(&only, &[WallEdit::Remove(0), WallEdit::Swap(0, 5)]), only);
+    }
+}

@@ -1,0 +1,33 @@
+//! The wall: one to six views of the scene, what they are held against, and what comes of it.
+//!
+//! ```text
+//!   document ──► slots (one view of the session each) ──► pictures, maps   (developer's thread)
+//!        ▲                                           └──► numbers, verdicts (analyst's thread)
+//!        └── WallEdit ◄── bar, cells, dock
+//! ```
+//!
+//! | file | does |
+//! | --- | --- |
+//! | `slot.rs` | which view of the session renders which view of the document |
+//! | `edit.rs` | what a comparison can be asked to become |
+//! | `reference.rs` | what errors are measured against |
+//! | `analyst.rs` | the numbers |
+//! | `bar.rs`, `cells.rs`, `caption.rs`, `legend.rs` | what is seen of it |
+//! | `dock/` | ranking, curves, the samples of a pixel, a scanline; one tab a file |
+
+pub mod analyst;
+mod bar;
+mod caption;
+mod cells;
+pub mod dock;
+mod edit;
+mod legend;
+pub mod presets;
+mod reference;
+mod slot;
+mod state;
+
+pub use edit::{WallEdit, edited};
+pub use reference::ReferenceState;
+pub use slot::Slot;
+pub use state::{Tool, Wall};

@@ -1,0 +1,107 @@
+//! Comparisons that are set up already: the report's figures, and a bias to be found.
+
+use majorant_core::io::{embedded, scene_file};
+use majorant_core::scene::{ContenderDoc, Fairness, ReferenceDoc, SceneDoc, WhenExceeded};
+
+/// A comparison that is set up already.
+pub struct Preset {
+    /// Its name in the menu.
+    pub name: &'static str,
+    /// What to see in it.
+    pub about: &'static str,
+    scene: &'static str,
+    set_up: fn(SceneDoc) -> SceneDoc,
+}
+
+/// Every preset, in the order of the menu.
+pub static PRESETS: &[Preset] = &[
+    Preset {
+        name: "Figure 2: colour noise",
+        about: "Independent tracking against spectral MIS, 64 samples per pixel: the colour noise that hero \
+                wavelengths take away",
+        scene: "plume-spectral",
+        set_up: |doc| figure(doc, &["independent", "spectral-mis"], "uni-nee-mis"),
+    },
+    Preset {
+        name: "Figure 3, upper row: back-lit",
+        about: "A large light behind a forward-scattering cloud: next-event estimation fails, Uni+NEE MIS does not",
+        scene: "cloud-backlit",
+        set_up: |doc| figure(doc, &["spectral-mis", "nee", "uni-nee-mis"], "spectral-mis"),
+    },
+    Preset {
+        name: "Figure 3, lower row: side-lit",
+        about: "A small light beside a dense cloud: unidirectional sampling fails, Uni+NEE MIS does not",
+        scene: "cloud-sidelit",
+        set_up: |doc| figure(doc, &["spectral-mis", "nee", "uni-nee-mis"], "nee"),
+    },
+    Preset {
+        name: "A bias to be found",
+        about: "A majorant that is too low, weighted (unbiased) and clamped (biased), beside a tight one: noise and \
+                bias look alike, until the z-map",
+        scene: "first-light",
+        set_up: bias,
+    },
+];
+
+impl Preset {
+    /// The scene with its comparison.
+    ///
+    /// # Errors
+    /// A sentence, if the embedded scene is not there.
+    pub fn doc(&self) -> Result<SceneDoc, String> {
+        let scene = embedded::find(self.scene)
+            .ok_or_else(|| format!("There is no embedded scene `{}`.", self.scene))?;
+        let doc = scene_file::parse(scene.toml, scene.name).map_err(|e| e.to_string())?;
+        Ok((self.set_up)(doc))
+    }
+}
+
+/// The report's settings: 64 samples per pixel, a reference of 1024.
+fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
+    doc.render.spp = Some(64);
+    doc.compare.fairness = Fairness::Samples;
+    let base = doc.contender(0).unwrap_or_default();
+    for (i, id) in estimators.iter().enumerate() {
+        if i == 0 {
+            (*id).clone_into(&mut doc.estimator.id);
+            continue;
+        }
+        let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
+        (*id).clone_into(&mut view.estimator.id);
+        doc.compare.views.push(view);
+    }
+    doc.compare.reference =
+        ReferenceDoc::Render { estimator: reference.into(), spp: Some(1024), relative_error: None };
+    doc
+}
+
+fn bias(mut doc: SceneDoc) -> SceneDoc {
+    doc.render.spp = None;
+    (doc.film.width, doc.film.height) = (480, 270);
+    let base = doc.contender(0).unwrap_or_default();
+    for when_exceeded in [WhenExceeded::Weighted, WhenExceeded::Clamp] {
+        let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
+        view.majorant.factor = 0.7;
+        view.majorant.when_exceeded = when_exceeded;
+        doc.compare.views.push(view);
+    }
+    doc
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::estimator::validate;
+
+    #[test]
+    fn presets_are_scenes_that_render() {
+        for preset in PRESETS {
+            let doc = preset.doc().expect(preset.name);
+            assert_eq!(validate(&doc), [], "{}", preset.name);
+            assert!(doc.view_count() >= 2);
+            let seeds: std::collections::BTreeSet<u64> =
+                doc.view_docs().iter().map(|d| d.render.seed).collect();
+            assert_eq!(seeds.len(), doc.view_count(), "{}", preset.name);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The reference of the comparison: rendered in the background, read from a file, or a view's picture.
+
+use super::slot::Slot;
+use majorant_core::compare::{Reference, label};
+use majorant_core::estimator;
+use majorant_core::film::Snapshot;
+use majorant_core::scene::{ReferenceDoc, SceneDoc};
+use majorant_core::session::{Role, Session, Status, ViewId};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The session's view for a reference that is rendered.
+const BACKGROUND: ViewId = ViewId(u32::MAX);
+
+/// See the [module](self).
+#[derive(Default)]
+pub struct ReferenceKeeper {
+    rendered: Option<Slot>,
+    file: Option<FileReference>,
+    /// What the newest picture was made from.
+    made_from: Option<Arc<Snapshot>>,
+    picture: Option<Arc<Reference>>,
+}
+
+struct FileReference {
+    path: PathBuf,
+    read: Option<Result<Arc<Reference>, String>>,
+    /// Whether only the person who chose it says that it shows this scene.
+    trusted: bool,
+}
+
+/// What there is to say about the reference.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReferenceState {
+    /// In a few words.
+    pub text: String,
+    /// What is wrong with it, if anything; it is not used then.
+    pub problem: Option<String>,
+    /// Share of the way to its limit, if it is being made.
+    pub progress: Option<f32>,
+}
+
+impl ReferenceKeeper {
+    /// Brings it in line with the document. Returns a file that has to be read.
+    pub fn submit(
+        &mut self,
+        doc: &SceneDoc,
+        base: &Path,
+        resolved: impl Fn(&SceneDoc) -> SceneDoc,
+        session: &Session,
+    ) -> Option<PathBuf> {
+        match doc.reference_doc() {
+            Some(wanted) => {
+                let slot = self.rendered.get_or_insert_with(|| Slot::new(BACKGROUND, session));
+                slot.submit(&wanted, resolved, Role::Background, session);
+            }
+            None => {
+                if self.rendered.take().is_some() {
+                    session.remove(BACKGROUND);
+                }
+            }
+        }
+        let ReferenceDoc::File { file } = &doc.compare.reference else {
+            self.file = None;
+            return None;
+        };
+        let path = base.join(file);
+        if self.file.as_ref().is_some_and(|known| known.path == path) {
+            return None;
+        }
+        self.file = Some(FileReference { path: path.clone(), read: None, trusted: false });
+        Some(path)
+    }
+
+    /// Everything starts over at the next submission.
+    pub fn forget(&mut self) {
+        if let Some(slot) = &mut self.rendered {
+            slot.forget();
+        }
+        self.file = None;
+    }
+
+    /// A file was read, or not.
+    pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
+        if let Some(file) = self.file.as_mut().filter(|f| f.path == path) {
+            file.read = Some(read.map(Arc::new));
+        }
+    }
+
+    /// Takes note of what has changed; `target` names the image that view A shows.
+    pub fn update(&mut self, doc: &SceneDoc, views: &[Slot], target: Option<&str>, session: &Session) {
+        if let Some(slot) = &mut self.rendered {
+            slot.update(session);
+        }
+        self.trust(target);
+        let live = match &doc.compare.reference {
+            ReferenceDoc::View { view } => views.get(*view).map(|s| (s, format!("view {}", label(*view)))),
+            ReferenceDoc::Render { estimator, .. } => self.rendered.as_ref().map(|s| (s, name(estimator))),
+            _ => None,
+        };
+        match live {
+            Some((slot, origin)) => {
+                let usable = slot.state.snapshot.clone().filter(|s| s.spp >= 3 && s.coarse.is_none());
+                let known = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
+                if !known {
+                    let origin = |spp: u32| format!("{origin}, {spp} spp");
+                    self.picture = usable.as_ref().map(|s| Arc::new(Reference::of(s, origin(s.spp))));
+                    self.made_from = usable;
+                }
+            }
+            None => {
+                self.made_from = None;
+                self.picture = self.file.as_ref().and_then(|f| f.read.as_ref()?.as_ref().ok().cloned());
+            }
+        }
+    }
+
+    /// A picture that does not say what it shows is taken for what it was loaded for.
+    fn trust(&mut self, target: Option<&str>) {
+        let (Some(file), Some(target)) = (&mut self.file, target) else { return };
+        if let Some(Ok(read)) = &mut file.read
+            && read.target.is_none()
+        {
+            Arc::make_mut(read).target = Some(target.to_owned());
+            file.trusted = true;
+        }
+    }
+
+    /// The picture, if there is one.
+    #[must_use]
+    pub fn picture(&self) -> Option<&Arc<Reference>> {
+        self.picture.as_ref()
+    }
+
+    /// What there is to say about it.
+    #[must_use]
+    pub fn state(&self, doc: &SceneDoc, target: Option<&str>) -> ReferenceState {
+        let plain = |text: &str| ReferenceState { text: text.into(), problem: None, progress: None };
+        match &doc.compare.reference {
+            ReferenceDoc::None => plain("none"),
+            ReferenceDoc::Pooled => plain("the other unbiased views"),
+            ReferenceDoc::View { view } => plain(&format!("view {}", label(*view))),
+            ReferenceDoc::Render { estimator, .. } => {
+                let Some(slot) = &self.rendered else { return plain(&name(estimator)) };
+                let mut state = plain(&format!("{}, {} spp", name(estimator), slot.stats.spp));
+                match &slot.state.status {
+                    Status::Failed(problem) => state.problem = Some(problem.clone()),
+                    Status::Finished => {}
+                    _ => state.progress = Some(progress(doc, slot)),
+                }
+                state
+            }
+            ReferenceDoc::File { file } => {
+                let name = Path::new(file).file_name().map_or(file.into(), |n| n.to_string_lossy());
+                let mut state = plain(&name);
+                let read = self.file.as_ref().and_then(|f| f.read.as_ref());
+                match read {
+                    None => state.text += " (reading)",
+                    Some(Err(problem)) => state.problem = Some(problem.clone()),
+                    Some(Ok(picture)) => {
+                        let stale = target.is_some_and(|t| !picture.fits(t));
+                        if stale {
+                            state.problem = Some(
+                                "The scene has changed since this picture was made: it is not used. Load or \
+                                 render another, or undo the change."
+                                    .into(),
+                            );
+                        } else if self.file.as_ref().is_some_and(|f| f.trusted) {
+                            state.text += " (taken on trust)";
+                        }
+                    }
+                }
+                state
+            }
+        }
+    }
+}
+
+/// How far a rendered reference is to the nearest of its limits.
+fn progress(doc: &SceneDoc, slot: &Slot) -> f32 {
+    let by_samples = slot.stats.progress.unwrap_or(0.0);
+    let by_error = match (&doc.compare.reference, &slot.state.snapshot) {
+        // Errors fall with the square root of the time.
+        (ReferenceDoc::Render { relative_error: Some(wanted), .. }, Some(snapshot)) if snapshot.spp > 1 => {
+            (f64::from(*wanted) / snapshot.relative_error()).powi(2) as f32
+        }
+        _ => 0.0,
+    };
+    by_samples.max(by_error).clamp(0.0, 1.0)
+}
+
+fn name(id: &str) -> String {
+    estimator::find(id).map_or(id, |e| e.name).to_owned()
+}

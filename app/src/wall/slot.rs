@@ -1,0 +1,153 @@
+//! Which view of the session shows which view of the document, found by comparing documents.
+
+use crate::lab::Stats;
+use crate::model::{Work, work_after};
+use majorant_core::compare::curve::Checkpoints;
+use majorant_core::scene::SceneDoc;
+use majorant_core::session::{Job, Role, Session, ViewId, ViewState};
+use std::sync::Arc;
+
+/// One view of the document as the session renders it.
+pub struct Slot {
+    /// Its name in the session.
+    pub id: ViewId,
+    /// What the session was last given, before file names were resolved.
+    submitted: Option<SceneDoc>,
+    /// The same with file names resolved.
+    pub rendered: Arc<SceneDoc>,
+    /// What the session is doing.
+    pub state: ViewState,
+    /// Rates and estimates derived from it.
+    pub stats: Stats,
+    /// Early pictures, for error curves.
+    pub checkpoints: Checkpoints,
+}
+
+impl Slot {
+    /// A view that renders nothing yet.
+    pub fn new(id: ViewId, session: &Session) -> Self {
+        Self {
+            id,
+            submitted: None,
+            rendered: Arc::new(SceneDoc::default()),
+            state: session.state(id),
+            stats: Stats::default(),
+            checkpoints: Checkpoints::default(),
+        }
+    }
+
+    /// What has to be done so that it shows `wanted`.
+    fn work(&self, wanted: &SceneDoc) -> Work {
+        self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, wanted))
+    }
+
+    /// Gives the session what changed.
+    pub fn submit(
+        &mut self,
+        wanted: &SceneDoc,
+        resolved: impl Fn(&SceneDoc) -> SceneDoc,
+        role: Role,
+        session: &Session,
+    ) {
+        match self.work(wanted) {
+            Work::None => return,
+            Work::Limits => session.set_limits(self.id, wanted.render.limits()),
+            Work::Render => {
+                self.rendered = Arc::new(resolved(wanted));
+                let preview = role == Role::Contender;
+                session.submit(self.id, Job { doc: Arc::clone(&self.rendered), preview, role });
+            }
+        }
+        self.submitted = Some(wanted.clone());
+    }
+
+    /// Starts over at the next submission, whatever changed.
+    pub fn forget(&mut self) {
+        self.submitted = None;
+    }
+
+    /// Takes note of what the session has done.
+    pub fn update(&mut self, session: &Session) {
+        self.state = session.state(self.id);
+        let render = self.submitted.as_ref().map(|doc| &doc.render);
+        self.stats = render.map(|limits| Stats::new(&self.state, limits)).unwrap_or_default();
+        let current = self.state.snapshot.as_ref().filter(|s| s.generation == self.state.generation);
+        if let Some(snapshot) = current {
+            self.checkpoints.observe(snapshot);
+        }
+    }
+}
+
+/// Assigns slots to wanted documents: views that were moved, removed or copied go on rendering, only what
+/// really changed starts over. `fresh` makes a slot that renders nothing yet; what is left over is returned.
+pub fn assign(
+    old: Vec<Slot>,
+    wanted: &[SceneDoc],
+    mut fresh: impl FnMut() -> Slot,
+) -> (Vec<Slot>, Vec<Slot>) {
+    let mut old: Vec<Option<Slot>> = old.into_iter().map(Some).collect();
+    let mut found: Vec<Option<Slot>> = wanted.iter().map(|_| None).collect();
+    let fits =
+        |slot: &Option<Slot>, doc: &SceneDoc| slot.as_ref().is_some_and(|s| s.work(doc) != Work::Render);
+    // Those at their place first, then those that moved, then whatever is free.
+    for (i, doc) in wanted.iter().enumerate() {
+        if let Some(slot) = old.get_mut(i).filter(|slot| fits(slot, doc)) {
+            found[i] = slot.take();
+        }
+    }
+    for (i, doc) in wanted.iter().enumerate().filter(|(i, _)| found[*i].is_none()).collect::<Vec<_>>() {
+        if let Some(slot) = old.iter_mut().find(|slot| fits(slot, doc)) {
+            found[i] = slot.take();
+        }
+    }
+    for (i, place) in found.iter_mut().enumerate() {
+        if place.is_none() {
+            let same = old.get_mut(i).and_then(Option::take);
+            *place = same.or_else(|| old.iter_mut().find_map(Option::take)).or_else(|| Some(fresh()));
+        }
+    }
+    (found.into_iter().flatten().collect(), old.into_iter().flatten().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::io::Library;
+
+    fn doc(seed: u64) -> SceneDoc {
+        let mut doc = SceneDoc::default();
+        (doc.film.width, doc.film.height) = (2, 2);
+        doc.render.seed = seed;
+        doc.render.spp = Some(1);
+        doc
+    }
+
+    #[test]
+    fn views_that_moved_go_on_and_only_what_changed_starts_over() {
+        let session = Session::new(Library::default(), || {}).expect("threads");
+        let mut next = 0;
+        let mut assigned = |old: Vec<Slot>, seeds: &[u64]| {
+            let wanted: Vec<SceneDoc> = seeds.iter().map(|s| doc(*s)).collect();
+            let (mut slots, left) = assign(old, &wanted, || {
+                next += 1;
+                Slot::new(ViewId(next), &session)
+            });
+            for (slot, doc) in slots.iter_mut().zip(&wanted) {
+                slot.submit(doc, SceneDoc::clone, Role::Contender, &session);
+            }
+            (slots, left)
+        };
+        let ids = |slots: &[Slot]| slots.iter().map(|s| s.id.0).collect::<Vec<_>>();
+        let (slots, left) = assigned(Vec::new(), &[10, 11, 12]);
+        assert_eq!((ids(&slots), ids(&left)), (vec![1, 2, 3], vec![]));
+        // Swapped.
+        let (slots, left) = assigned(slots, &[12, 11, 10]);
+        assert_eq!((ids(&slots), ids(&left)), (vec![3, 2, 1], vec![]));
+        // The first is gone: the others move up.
+        let (slots, left) = assigned(slots, &[11, 10]);
+        assert_eq!((ids(&slots), ids(&left)), (vec![2, 1], vec![3]));
+        // One was edited and one came.
+        let (slots, left) = assigned(slots, &[11, 13, 14]);
+        assert_eq!((ids(&slots), ids(&left)), (vec![2, 1, 4], vec![]));
+    }
+}

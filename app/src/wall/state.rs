@@ -1,0 +1,373 @@
+//! What the wall holds between frames.
+
+use super::analyst::{Analysis, Analyst, Question};
+use super::reference::{ReferenceKeeper, ReferenceState};
+use super::slot::{Slot, assign};
+use crate::view::developer::{MapPrint, Order, OrderedView, Print, Sight};
+use crate::view::image_view::ImageView;
+use egui::{Context, TextureFilter, TextureHandle, TextureOptions};
+use majorant_core::compare::maps;
+use majorant_core::compare::{Experiment, Reference, View, label};
+use majorant_core::film::Snapshot;
+use majorant_core::scene::{Arrangement, Layer, ReferenceDoc, SceneDoc, ViewDoc};
+use majorant_core::session::{Role, Session, ViewId};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
+const TEXTURE: TextureOptions = TextureOptions {
+    magnification: TextureFilter::Nearest,
+    minification: TextureFilter::Linear,
+    ..TextureOptions::LINEAR
+};
+
+/// What a drag on a picture does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Turns the camera.
+    #[default]
+    Camera,
+    /// Draws the box that numbers are about.
+    Region,
+}
+
+/// A print on the graphics card.
+pub struct Hung {
+    /// The pixels.
+    pub texture: TextureHandle,
+    /// The numbers behind them; absent for the reference.
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// What it shows, if it is a map.
+    pub map: Option<Arc<MapPrint>>,
+}
+
+/// See the [module](self).
+pub struct Wall {
+    slots: Vec<Slot>,
+    next_id: u32,
+    /// The document that the slots were last brought in line with.
+    doc: Arc<SceneDoc>,
+    /// Whether everything has to start over.
+    forgotten: bool,
+    selected: usize,
+    reference: ReferenceKeeper,
+    analyst: Analyst,
+    analysis: Arc<Analysis>,
+    /// What the analyst was last asked about.
+    asked: Option<Asked>,
+    hung: BTreeMap<Sight, Hung>,
+    zoom: ImageView,
+    own_zoom: BTreeMap<Sight, ImageView>,
+    /// Where the divider of a wipe stands, as a share of the width.
+    pub split: f32,
+    /// Which sight a flip shows.
+    pub flipped: usize,
+    /// What a drag does.
+    pub tool: Tool,
+    /// The pixel whose samples are shown.
+    pub picked: Option<[usize; 2]>,
+}
+
+/// What numbers depend on.
+struct Asked {
+    doc: Arc<SceneDoc>,
+    snapshots: Vec<Arc<Snapshot>>,
+    reference: Option<Arc<Reference>>,
+    picked: Option<[usize; 2]>,
+}
+
+impl Asked {
+    fn is_like(&self, other: &Self) -> bool {
+        let place = |all: &[Arc<Snapshot>]| all.iter().map(Arc::as_ptr).collect::<Vec<_>>();
+        Arc::ptr_eq(&self.doc, &other.doc)
+            && place(&self.snapshots) == place(&other.snapshots)
+            && self.reference.as_ref().map(Arc::as_ptr) == other.reference.as_ref().map(Arc::as_ptr)
+            && self.picked == other.picked
+    }
+}
+
+impl Wall {
+    /// A wall with nothing on it.
+    ///
+    /// # Errors
+    /// When the operating system refuses a thread.
+    pub fn new(repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        Ok(Self {
+            slots: Vec::new(),
+            next_id: 0,
+            doc: Arc::default(),
+            forgotten: true,
+            selected: 0,
+            reference: ReferenceKeeper::default(),
+            analyst: Analyst::new(repaint)?,
+            analysis: Arc::default(),
+            asked: None,
+            hung: BTreeMap::new(),
+            zoom: ImageView::FIT,
+            own_zoom: BTreeMap::new(),
+            split: 0.5,
+            flipped: 0,
+            tool: Tool::Camera,
+            picked: None,
+        })
+    }
+
+    /// Brings session and slots in line with a document. Returns a reference that has to be read.
+    pub fn submit(
+        &mut self,
+        doc: &SceneDoc,
+        base: &Path,
+        resolved: impl Fn(&SceneDoc) -> SceneDoc,
+        session: &Session,
+    ) -> Option<PathBuf> {
+        if *self.doc == *doc && !self.forgotten {
+            return None;
+        }
+        (self.doc, self.forgotten) = (Arc::new(doc.clone()), false);
+        let wanted = doc.view_docs();
+        let next_id = &mut self.next_id;
+        let (slots, left) = assign(std::mem::take(&mut self.slots), &wanted, || {
+            *next_id += 1;
+            Slot::new(ViewId(*next_id), session)
+        });
+        self.slots = slots;
+        for gone in left {
+            session.remove(gone.id);
+        }
+        session.set_fairness(doc.compare.fairness);
+        for (slot, wanted) in self.slots.iter_mut().zip(&wanted) {
+            slot.submit(wanted, &resolved, Role::Contender, session);
+        }
+        self.selected = self.selected.min(self.slots.len().saturating_sub(1));
+        self.reference.submit(doc, base, resolved, session)
+    }
+
+    /// Everything starts over at the next submission, as for another scene.
+    pub fn forget(&mut self) {
+        self.forgotten = true;
+        self.slots.iter_mut().for_each(Slot::forget);
+        self.reference.forget();
+        (self.zoom, self.picked, self.tool) = (ImageView::FIT, None, Tool::Camera);
+        self.own_zoom.clear();
+        self.selected = 0;
+    }
+
+    /// Takes note of what session and threads have done; `prints` are new pictures.
+    pub fn update(&mut self, ctx: &Context, session: &Session, prints: BTreeMap<Sight, Print>) {
+        for slot in &mut self.slots {
+            slot.update(session);
+        }
+        let target = self.target();
+        self.reference.update(&self.doc, &self.slots, target.as_deref(), session);
+        for (sight, print) in prints {
+            self.hang(ctx, sight, print);
+        }
+        let sights = self.sights();
+        self.hung.retain(|sight, _| sights.contains(sight));
+        if let Some(analysis) = self.analyst.take() {
+            self.analysis = analysis;
+        }
+        self.ask();
+    }
+
+    fn hang(&mut self, ctx: &Context, sight: Sight, print: Print) {
+        let Print { image, snapshot, map } = print;
+        match self.hung.get_mut(&sight) {
+            Some(hung) => {
+                hung.texture.set(image, TEXTURE);
+                (hung.snapshot, hung.map) = (snapshot, map);
+            }
+            None => {
+                let texture = ctx.load_texture(format!("{sight:?}"), image, TEXTURE);
+                self.hung.insert(sight, Hung { texture, snapshot, map });
+            }
+        }
+    }
+
+    /// Names the image that view A shows.
+    fn target(&self) -> Option<String> {
+        let current = self.slots.first().and_then(|s| {
+            let snapshot = s.state.snapshot.as_ref()?;
+            (snapshot.generation == s.state.generation).then(|| snapshot.target.clone())
+        });
+        current.filter(|t| !t.is_empty())
+    }
+
+    /// Asks the analyst again if anything has changed that numbers depend on.
+    fn ask(&mut self) {
+        let experiment = self.experiment();
+        let asking = Asked {
+            doc: Arc::clone(&self.doc),
+            snapshots: experiment.views.iter().map(|(_, v)| Arc::clone(&v.snapshot)).collect(),
+            reference: experiment.reference.clone(),
+            picked: self.picked,
+        };
+        let traced = self.pixel_samples_missing();
+        if self.asked.as_ref().is_some_and(|known| known.is_like(&asking)) && !traced {
+            return;
+        }
+        self.asked = Some(asking);
+        let probes = || {
+            let probe = |(i, s): (usize, &Slot)| Some((i, s.state.probe.clone()?));
+            self.slots.iter().enumerate().filter_map(probe).collect()
+        };
+        let pixel = self.picked.map(|at| (at, probes()));
+        self.analyst.ask(Question { experiment, pixel });
+    }
+
+    /// Whether the newest analysis has not yet traced all samples of the picked pixel.
+    fn pixel_samples_missing(&self) -> bool {
+        let Some((at, samples)) = &self.analysis.pixel else { return false };
+        self.picked == Some(*at)
+            && samples.iter().any(|s| {
+                let spp = self.slots.get(s.view).map_or(0, |slot| slot.stats.spp as usize);
+                s.samples.len() < spp.min(100_000)
+            })
+    }
+
+    /// The comparison as it stands.
+    #[must_use]
+    pub fn experiment(&self) -> Experiment {
+        let view = |(i, slot): (usize, &Slot)| {
+            let snapshot = slot.state.snapshot.clone()?;
+            let current = snapshot.generation == slot.state.generation && snapshot.coarse.is_none();
+            let checkpoints = Arc::new(slot.checkpoints.clone());
+            let doc = Arc::clone(&slot.rendered);
+            current.then(|| (i, View { label: label(i), doc, snapshot, checkpoints }))
+        };
+        Experiment {
+            doc: Arc::clone(&self.doc),
+            views: self.slots.iter().enumerate().filter_map(view).collect(),
+            reference: self.reference.picture().cloned(),
+        }
+    }
+
+    /// Everything that the arrangement shows, in its order.
+    #[must_use]
+    pub fn sights(&self) -> Vec<Sight> {
+        if self.doc.compare.arrangement == Arrangement::Difference && self.slots.len() > 1 {
+            return vec![Sight::Difference];
+        }
+        let mut sights: Vec<Sight> = (0..self.slots.len()).map(Sight::View).collect();
+        // A view that is the reference is on the wall already.
+        let own = !matches!(self.doc.compare.reference, ReferenceDoc::View { .. });
+        if own && self.reference.picture().is_some() && self.map().is_none() {
+            sights.push(Sight::Reference);
+        }
+        sights
+    }
+
+    /// The map that is shown instead of the pictures.
+    #[must_use]
+    pub fn map(&self) -> Option<&'static maps::Map> {
+        let compare = &self.doc.compare;
+        match (compare.arrangement, compare.layer.0.as_str()) {
+            // A difference is a map of its own, signed unless another was chosen.
+            (Arrangement::Difference, id) if id == Layer::PICTURE => maps::find("error"),
+            (_, id) => maps::find(id),
+        }
+    }
+
+    /// What the developer shall do.
+    #[must_use]
+    pub fn order(&self) -> Order {
+        let ordered = |(number, slot): (usize, &Slot)| OrderedView {
+            number,
+            id: slot.id,
+            doc: Arc::clone(&slot.rendered),
+        };
+        let sights = self.sights();
+        let (pictures, maps) = match self.map() {
+            Some(map) => (Vec::new(), Some((map, sights))),
+            None => (sights.into_iter().map(|s| (s, self.display(s))).collect(), None),
+        };
+        Order {
+            doc: Arc::clone(&self.doc),
+            views: self.slots.iter().enumerate().map(ordered).collect(),
+            reference: self.reference.picture().cloned(),
+            pictures,
+            maps,
+        }
+    }
+
+    /// How a sight's radiance is shown.
+    #[must_use]
+    pub fn display(&self, sight: Sight) -> ViewDoc {
+        let own = match sight {
+            Sight::View(view) => self.doc.view_doc(view).map(|d| d.view),
+            Sight::Reference | Sight::Difference => None,
+        };
+        own.unwrap_or_else(|| self.doc.view.clone())
+    }
+
+    /// The view that the method column edits.
+    #[must_use]
+    pub fn selected(&self) -> usize {
+        self.selected
+    }
+
+    /// Chooses the view that the method column edits.
+    pub fn select(&mut self, view: usize) {
+        self.selected = view.min(self.slots.len().saturating_sub(1));
+    }
+
+    /// The views.
+    #[must_use]
+    pub fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// The slot that the method column edits.
+    #[must_use]
+    pub fn selected_slot(&self) -> Option<&Slot> {
+        self.slots.get(self.selected)
+    }
+
+    /// The newest numbers.
+    #[must_use]
+    pub fn analysis(&self) -> &Arc<Analysis> {
+        &self.analysis
+    }
+
+    /// A picture on the wall.
+    #[must_use]
+    pub fn hung(&self, sight: Sight) -> Option<&Hung> {
+        self.hung.get(&sight)
+    }
+
+    /// What there is to say about the reference.
+    #[must_use]
+    pub fn reference_state(&self) -> ReferenceState {
+        self.reference.state(&self.doc, self.target().as_deref())
+    }
+
+    /// A reference was read, or not.
+    pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
+        self.reference.finish_reading(path, read);
+    }
+
+    /// Pan and zoom of a sight.
+    #[must_use]
+    pub fn zoom_of(&self, sight: Sight) -> ImageView {
+        match self.doc.compare.own_zoom {
+            true => self.own_zoom.get(&sight).copied().unwrap_or(self.zoom),
+            false => self.zoom,
+        }
+    }
+
+    /// Pans and zooms a sight, and with it all others unless each has a zoom of its own.
+    pub fn set_zoom(&mut self, sight: Sight, view: ImageView) {
+        if self.doc.compare.own_zoom {
+            self.own_zoom.insert(sight, view);
+        } else {
+            self.zoom = view;
+        }
+    }
+
+    /// Pans and zooms all.
+    pub fn set_zoom_of_all(&mut self, view: ImageView) {
+        self.zoom = view;
+        self.own_zoom.clear();
+    }
+}
