@@ -7,6 +7,8 @@ mod files;
 mod harness;
 #[path = "gui/self_check.rs"]
 mod self_check;
+#[path = "gui/wall.rs"]
+mod wall;
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, vec2};

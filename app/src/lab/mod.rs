@@ -190,6 +190,12 @@ impl LabApp {
         &self.wall
     }
 
+    /// Carries out a command as if the window had been asked for it.
+    pub fn request(&mut self, command: Command) {
+        self.apply(command);
+        self.submit_if_needed();
+    }
+
     /// The self-check.
     #[must_use]
     pub fn self_check(&self) -> &SelfCheck {

@@ -154,7 +154,8 @@ fn pair_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
 fn layer_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, commands: &mut Vec<Command>) {
     let current = doc.compare.layer.0.as_str();
     let name = wall.map().map_or("Picture", |map| map.name);
-    let combo = ComboBox::from_id_salt("layer").width(84.0).selected_text(RichText::new(name).small());
+    let combo =
+        ComboBox::from_id_salt("layer").height(360.0).width(84.0).selected_text(RichText::new(name).small());
     let response = combo.show_ui(ui, |ui| {
         let mut item = |ui: &mut Ui, id: &str, name: &str, tip: &str| {
             if ui.selectable_label(current == id, name).on_hover_text(tip).clicked() {

@@ -15,8 +15,8 @@ use majorant_core::scene::{ReferenceDoc, SceneDoc};
 
 /// Its height.
 pub(super) const HEIGHT: f32 = 26.0;
-/// Below this width only the most important is said.
-const NARROW: f32 = 300.0;
+/// Below these widths the verdict, and the number of samples, are left to the ranking.
+const NARROW: [f32; 2] = [340.0, 440.0];
 
 /// A number with three digits, as tables show it.
 #[must_use]
@@ -164,13 +164,13 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
             ),
         };
         ui.add(small(text, palette.strong)).on_hover_text(tip);
-        if width > NARROW {
+        if width > NARROW[0] {
             let (text, colour) = verdict(standing, palette);
             ui.add(small(text, colour)).on_hover_text(against(standing));
         }
     }
     let Some(slot) = wall.slots().get(view) else { return };
-    if width > NARROW || analysis.standing(&label(view)).is_none() {
+    if width > NARROW[1] || analysis.standing(&label(view)).is_none() {
         ui.add(small(format!("{} spp", count(slot.stats.spp.into())), palette.weak));
     }
 }

@@ -38,7 +38,7 @@ pub static PRESETS: &[Preset] = &[
         name: "A bias to be found",
         about: "A majorant that is too low, weighted (unbiased) and clamped (biased), beside a tight one: noise and \
                 bias look alike, until the z-map",
-        scene: "first-light",
+        scene: "homogeneous-absorption",
         set_up: bias,
     },
 ];
@@ -77,11 +77,10 @@ fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
 
 fn bias(mut doc: SceneDoc) -> SceneDoc {
     doc.render.spp = None;
-    (doc.film.width, doc.film.height) = (480, 270);
     let base = doc.contender(0).unwrap_or_default();
     for when_exceeded in [WhenExceeded::Weighted, WhenExceeded::Clamp] {
         let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
-        view.majorant.factor = 0.7;
+        view.majorant.factor = 0.9;
         view.majorant.when_exceeded = when_exceeded;
         doc.compare.views.push(view);
     }

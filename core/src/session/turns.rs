@@ -73,3 +73,91 @@ impl Turns {
         self.owed = self.owed.clamp(-LONGEST_DEBT_SECONDS, LONGEST_DEBT_SECONDS);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::{Settings, find};
+    use crate::io::Library;
+    use crate::scene::{Limits, SceneDoc, build};
+    use crate::session::Probe;
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicU64;
+
+    fn view(role: Role) -> Active {
+        let mut doc = SceneDoc::default();
+        (doc.film.width, doc.film.height) = (1, 1);
+        let scene = Arc::new(build(&doc, &mut Library::default()).unwrap());
+        let kernel = find("nee").unwrap().kernel;
+        let probe = Probe { scene, kernel, settings: Settings::new(&doc.estimator, 0) };
+        let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap());
+        let mut view = Active::new((1, Arc::new(AtomicU64::new(1))), probe, pool, Limits::default());
+        view.role = role;
+        view
+    }
+
+    /// Seconds and look-ups that a sample of each view costs.
+    const COSTS: [(f64, u64); 3] = [(0.001, 10), (0.004, 5), (0.01, 300)];
+
+    /// Runs passes of at most `fitting` samples, as if they had cost what they should.
+    fn run(views: &mut BTreeMap<usize, Active>, turns: &mut Turns, passes: usize, fitting: u32) {
+        for _ in 0..passes {
+            let (id, most) = turns.next(views).unwrap();
+            let contenders = views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
+            let view = views.get_mut(&id).unwrap();
+            let count = fitting.min(most);
+            let (seconds, lookups) = COSTS[id % COSTS.len()];
+            view.spp += count;
+            view.cpu_seconds += seconds * f64::from(count);
+            view.tally.lookups += lookups * u64::from(count);
+            turns.note(view.role, seconds * f64::from(count), contenders);
+        }
+    }
+
+    fn spread(views: &BTreeMap<usize, Active>, fairness: Fairness) -> f64 {
+        let all = || views.values().filter(|v| v.role == Role::Contender).map(|v| had(v, fairness));
+        (all().fold(0.0, f64::max) - all().fold(f64::INFINITY, f64::min)) / all().fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn contenders_keep_level_in_what_the_comparison_is_fair_in() {
+        for fairness in [Fairness::Time, Fairness::Samples, Fairness::Lookups] {
+            let mut views: BTreeMap<usize, Active> = (0..3).map(|i| (i, view(Role::Contender))).collect();
+            let mut turns = Turns { fairness, ..Turns::default() };
+            run(&mut views, &mut turns, 600, 8);
+            assert!(spread(&views, fairness) < 0.05, "{fairness:?}: {}", spread(&views, fairness));
+            // In the other two they are not level: the costs differ.
+            let other = if fairness == Fairness::Time { Fairness::Samples } else { Fairness::Time };
+            assert!(spread(&views, other) > 0.3, "{fairness:?}");
+        }
+    }
+
+    #[test]
+    fn a_newcomer_catches_up_before_the_others_go_on() {
+        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
+        let mut turns = Turns { fairness: Fairness::Samples, ..Turns::default() };
+        run(&mut views, &mut turns, 100, 8);
+        let before: u32 = views.values().map(|v| v.spp).max().unwrap();
+        views.insert(2, view(Role::Contender));
+        while views[&2].spp < before {
+            run(&mut views, &mut turns, 1, 8);
+        }
+        assert_eq!(views.values().map(|v| v.spp).max(), Some(before), "exactly level, and nobody went ahead");
+    }
+
+    #[test]
+    fn the_background_gets_one_contenders_share_and_all_of_it_once_they_are_done() {
+        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
+        views.insert(2, view(Role::Background));
+        let mut turns = Turns::default();
+        run(&mut views, &mut turns, 3000, 8);
+        let share = views[&2].cpu_seconds / views[&0].cpu_seconds;
+        assert!((share - 1.0).abs() < 0.05, "{share}");
+        for id in [0, 1] {
+            views.get_mut(&id).unwrap().paused = true;
+        }
+        let before = views[&2].spp;
+        run(&mut views, &mut turns, 10, 8);
+        assert_eq!(views[&2].spp, before + 80);
+    }
+}
