@@ -159,7 +159,12 @@ impl LabApp {
             Command::ToggleDock => self.settings.dock ^= true,
             Command::ShowTab(id) => (self.settings.tab, self.settings.dock) = (id.to_owned(), true),
             Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
-            Command::ToggleLargeType => self.settings.large_type ^= true,
+            Command::ToggleLargeType => {
+                let large = !self.settings.large_type;
+                self.settings.large_type = large;
+                // On a projector the pictures matter; the columns are a key away.
+                (self.settings.scene_column, self.settings.method_column) = (!large, !large);
+            }
             Command::ToggleSceneColumn => self.settings.scene_column ^= true,
             Command::ToggleMethodColumn => self.settings.method_column ^= true,
             Command::ToggleShortcuts => self.shortcuts_open ^= true,

@@ -115,14 +115,14 @@ fn choice(ui: &mut Ui, on: bool, text: &str, name: &str, tip: &str) -> bool {
 
 fn arrangement_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
     let options = [
-        (Arrangement::Grid, "Grid", "Side by side  (G)"),
-        (Arrangement::Wipe, "Wipe", "Two over each other, with a divider to drag  (W)"),
-        (Arrangement::Flip, "Flip", "One at a time; Tab over the picture goes to the next"),
-        (Arrangement::Difference, "Difference", "What two views differ by  (D)"),
+        (Arrangement::Grid, "Grid", "Grid", "Side by side  (G)"),
+        (Arrangement::Wipe, "Wipe", "Wipe", "Two over each other, with a divider to drag  (W)"),
+        (Arrangement::Flip, "Flip", "Flip", "One at a time; Tab over the picture goes to the next"),
+        (Arrangement::Difference, "A − B", "Difference", "What two views differ by  (D)"),
     ];
     group(ui, |ui| {
-        for (arrangement, text, tip) in options {
-            if choice(ui, doc.compare.arrangement == arrangement, text, text, tip) {
+        for (arrangement, text, name, tip) in options {
+            if choice(ui, doc.compare.arrangement == arrangement, text, name, tip) {
                 commands.push(Command::Wall(WallEdit::Arrange(arrangement)));
             }
         }

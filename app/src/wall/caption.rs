@@ -15,8 +15,11 @@ use majorant_core::scene::{ReferenceDoc, SceneDoc};
 
 /// Its height.
 pub(super) const HEIGHT: f32 = 26.0;
-/// Below these widths the verdict, and the number of samples, are left to the ranking.
-const NARROW: [f32; 2] = [340.0, 440.0];
+/// Widths from which more and more is said; the rest is left to the ranking.
+const ERROR_FROM: f32 = 120.0;
+const ERROR_NAMED_FROM: f32 = 240.0;
+const VERDICT_FROM: f32 = 340.0;
+const SAMPLES_FROM: f32 = 440.0;
 
 /// A number with three digits, as tables show it.
 #[must_use]
@@ -151,26 +154,32 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
     let analysis = wall.analysis();
     let small =
         |text: String, colour| Label::new(RichText::new(text).small().color(colour)).selectable(false);
-    if let Some(standing) = analysis.standing(&label(view)) {
+    if let Some(standing) = analysis.standing(&label(view)).filter(|_| width > ERROR_FROM) {
+        let called = |name: &str| if width > ERROR_NAMED_FROM { format!("{name} ") } else { String::new() };
         let error = analysis.measure.and_then(|m| Some((m, standing.error(m.id)?)));
         let (text, tip) = match error {
             Some((measure, measured)) => (
-                format!("{} {}", measure.name, digits(measured.corrected())),
-                format!("{}\n± {} from its scatter over pixels", measure.formula, digits(measured.error)),
+                called(measure.name) + &digits(measured.corrected()),
+                format!(
+                    "{}: {}\n± {} from its scatter over pixels",
+                    measure.name,
+                    measure.formula,
+                    digits(measured.error)
+                ),
             ),
             None => (
-                format!("σ² {}", digits(standing.variance)),
+                called("σ²") + &digits(standing.variance),
                 "Variance of a pixel's mean, over pixels and channels: needs no reference".into(),
             ),
         };
         ui.add(small(text, palette.strong)).on_hover_text(tip);
-        if width > NARROW[0] {
+        if width > VERDICT_FROM {
             let (text, colour) = verdict(standing, palette);
             ui.add(small(text, colour)).on_hover_text(against(standing));
         }
     }
     let Some(slot) = wall.slots().get(view) else { return };
-    if width > NARROW[1] || analysis.standing(&label(view)).is_none() {
+    if width > SAMPLES_FROM || (width > ERROR_FROM && analysis.standing(&label(view)).is_none()) {
         ui.add(small(format!("{} spp", count(slot.stats.spp.into())), palette.weak));
     }
 }

@@ -236,7 +236,12 @@ fn grid(rect: Rect, count: usize, aspect: f32, captioned: bool) -> Vec<Rect> {
         let room = size(columns) - vec2(0.0, caption);
         room.x.min(room.y * aspect)
     };
-    let columns = (1..=count).max_by(|a, b| picture(*a).total_cmp(&picture(*b))).unwrap_or(1);
+    // Empty cells look like something is missing: full rows may cost a little size.
+    let score = |columns: usize| {
+        let cells = columns * count.div_ceil(columns);
+        picture(columns) * (count as f32 / cells as f32).sqrt()
+    };
+    let columns = (1..=count).max_by(|a, b| score(*a).total_cmp(&score(*b))).unwrap_or(1);
     let cell: Vec2 = size(columns);
     (0..count)
         .map(|i| {

@@ -80,7 +80,7 @@ fn bias(mut doc: SceneDoc) -> SceneDoc {
     let base = doc.contender(0).unwrap_or_default();
     for when_exceeded in [WhenExceeded::Weighted, WhenExceeded::Clamp] {
         let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
-        view.majorant.factor = 0.9;
+        view.majorant.factor = 0.95;
         view.majorant.when_exceeded = when_exceeded;
         doc.compare.views.push(view);
     }

@@ -4,6 +4,7 @@
 //! white for differences (red: too bright).
 
 use super::estimate::Estimate;
+use crate::measure::Region;
 use colorous::Gradient;
 use rayon::prelude::*;
 
@@ -20,6 +21,8 @@ pub struct Map {
     pub scale: Scale,
     /// Whether it needs something to hold the view against.
     pub needs_reference: bool,
+    /// Edge of the blocks of pixels that are averaged first; 1 for single pixels.
+    pub block: usize,
     value: fn(&Pixel) -> f32,
 }
 
@@ -37,6 +40,7 @@ pub enum Scale {
 }
 
 /// One pixel of a view, and of what it is held against.
+#[derive(Default)]
 struct Pixel {
     mean: [f32; 3],
     variance: [f32; 3],
@@ -56,6 +60,12 @@ impl Pixel {
     }
 }
 
+fn z(p: &Pixel) -> f32 {
+    let difference = average(p.differences());
+    let error = (p.grey_variance + p.reference_grey_variance).sqrt();
+    if difference == 0.0 { 0.0 } else { difference / error }
+}
+
 fn average(values: [f32; 3]) -> f32 {
     values.iter().sum::<f32>() / 3.0
 }
@@ -68,6 +78,7 @@ pub static MAPS: &[Map] = &[
         formula: "mean over channels of A − R: red is too bright, blue too dark",
         scale: Scale::Diverging,
         needs_reference: true,
+        block: 1,
         value: |p| average(p.differences()),
     },
     Map {
@@ -76,6 +87,7 @@ pub static MAPS: &[Map] = &[
         formula: "mean over channels of |A − R|",
         scale: Scale::Linear,
         needs_reference: true,
+        block: 1,
         value: |p| average(p.differences().map(f32::abs)),
     },
     Map {
@@ -84,6 +96,7 @@ pub static MAPS: &[Map] = &[
         formula: "mean over channels of |A − R| / (|R| + 0.01)",
         scale: Scale::Linear,
         needs_reference: true,
+        block: 1,
         value: |p| {
             let d = p.differences();
             average(std::array::from_fn(|c| d[c].abs() / (p.reference[c].abs() + EPSILON)))
@@ -95,19 +108,26 @@ pub static MAPS: &[Map] = &[
         formula: "mean over channels of (A − R)², by decades",
         scale: Scale::Logarithmic,
         needs_reference: true,
+        block: 1,
         value: |p| average(p.differences().map(|d| d * d)),
     },
     Map {
         id: "z",
         name: "z: bias",
-        formula: "(A − R) / √(V_A + V_R) in grey: beyond ±4 is no chance; a bias shows as an even tint, without any reference of its own",
+        formula: "(A − R) / √(V_A + V_R) in grey: beyond ±4 is no chance. No reference is needed: another unbiased view will do. Skewed noise tints blue while samples are few; then blocks tell more",
         scale: Scale::Fixed(4.0),
         needs_reference: true,
-        value: |p| {
-            let difference = average(p.differences());
-            let error = (p.grey_variance + p.reference_grey_variance).sqrt();
-            if difference == 0.0 { 0.0 } else { difference / error }
-        },
+        block: 1,
+        value: z,
+    },
+    Map {
+        id: "z-blocks",
+        name: "z of blocks",
+        formula: "the same for means over blocks of 8 × 8 pixels: a bias stands out eight times as much",
+        scale: Scale::Fixed(4.0),
+        needs_reference: true,
+        block: 8,
+        value: z,
     },
     Map {
         id: "variance",
@@ -115,6 +135,7 @@ pub static MAPS: &[Map] = &[
         formula: "variance of a single sample, mean over channels, by decades: what the estimator is, not how long it ran",
         scale: Scale::Logarithmic,
         needs_reference: false,
+        block: 1,
         value: |p| average(p.variance) * p.samples,
     },
     Map {
@@ -123,6 +144,7 @@ pub static MAPS: &[Map] = &[
         formula: "√V_A, root mean square over channels, by decades",
         scale: Scale::Logarithmic,
         needs_reference: false,
+        block: 1,
         value: |p| average(p.variance).sqrt(),
     },
     Map {
@@ -131,6 +153,7 @@ pub static MAPS: &[Map] = &[
         formula: "samples in the mean; those that were not finite are left out",
         scale: Scale::Linear,
         needs_reference: false,
+        block: 1,
         value: |p| p.samples,
     },
     Map {
@@ -139,6 +162,7 @@ pub static MAPS: &[Map] = &[
         formula: "evaluations of the medium's coefficients per path",
         scale: Scale::Linear,
         needs_reference: false,
+        block: 1,
         value: |p| p.lookups / p.samples,
     },
 ];
@@ -159,11 +183,58 @@ impl Map {
         if self.needs_reference && reference.is_none() {
             return Vec::new();
         }
+        if self.block > 1 {
+            return self.of_blocks(view, reference);
+        }
         (0..view.picture.pixels.len())
             .into_par_iter()
             .with_min_len(4096)
             .map(|i| (self.value)(&pixel(view, reference, i)))
             .collect()
+    }
+
+    /// The value of every block's mean, in each of its pixels.
+    fn of_blocks(&self, view: &Estimate<'_>, reference: Option<&Estimate<'_>>) -> Vec<f32> {
+        let (width, height) = (view.picture.width, view.picture.height);
+        let mut values = vec![f32::NAN; width * height];
+        for y0 in (0..height).step_by(self.block) {
+            for x0 in (0..width).step_by(self.block) {
+                let block = Region { x0, y0, x1: x0 + self.block, y1: y0 + self.block };
+                let inside: Vec<usize> = block.indices(width, height).collect();
+                let value = (self.value)(&mean(inside.iter().map(|i| pixel(view, reference, *i))));
+                for i in inside {
+                    values[i] = value;
+                }
+            }
+        }
+        values
+    }
+}
+
+/// The mean of independent pixels, as one; those without a value are left out.
+fn mean(pixels: impl Iterator<Item = Pixel>) -> Pixel {
+    let mut sum = Pixel::default();
+    let mut n = 0.0;
+    for p in pixels.filter(|p| p.mean.iter().chain(&p.variance).all(|x| x.is_finite())) {
+        n += 1.0;
+        for c in 0..3 {
+            sum.mean[c] += p.mean[c];
+            sum.variance[c] += p.variance[c];
+            sum.reference[c] += p.reference[c];
+        }
+        sum.grey_variance += p.grey_variance;
+        sum.reference_grey_variance += p.reference_grey_variance;
+        sum.samples += p.samples;
+        sum.lookups += p.lookups;
+    }
+    Pixel {
+        mean: sum.mean.map(|x| x / n),
+        variance: sum.variance.map(|x| x / (n * n)),
+        reference: sum.reference.map(|x| x / n),
+        grey_variance: sum.grey_variance / (n * n),
+        reference_grey_variance: sum.reference_grey_variance / (n * n),
+        samples: sum.samples,
+        lookups: sum.lookups,
     }
 }
 
@@ -306,9 +377,26 @@ mod tests {
         near("samples", 4.0);
         near("lookups", 3.0);
         near("z", 0.5 / 0.07f32.sqrt());
+        // A single pixel is a block of its own.
+        near("z-blocks", 0.5 / 0.07f32.sqrt());
         for map in MAPS {
             assert_eq!(map.values(&view, None).is_empty(), map.needs_reference, "{}", map.id);
         }
+    }
+
+    #[test]
+    fn a_blocks_mean_is_known_better_than_its_pixels() {
+        let size = 10;
+        let pixels = vec![[1.1; 3]; size * size];
+        let errors = vec![[0.5; 3]; size * size];
+        let picture = Picture { width: size, height: size, pixels: &pixels };
+        let view = Estimate { picture, standard_error: Some(&errors), noise: None };
+        let exact = vec![[1.0; 3]; size * size];
+        let reference = Picture { pixels: &exact, ..picture };
+        let reference = Estimate { picture: reference, standard_error: None, noise: None };
+        let values = find("z-blocks").unwrap().values(&view, Some(&reference));
+        // 8 × 8 pixels, and 2 × 2 in the corner.
+        assert!((values[0] - 0.2 * 8.0).abs() < 1e-3 && (values[99] - 0.2 * 2.0).abs() < 1e-3, "{values:?}");
     }
 
     #[test]
