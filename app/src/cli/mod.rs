@@ -1,9 +1,11 @@
 //! The command line: one subcommand per file. What the window renders, `render` renders too.
 
 mod check;
+mod compare;
 mod estimators;
 mod info;
 mod lab;
+mod options;
 mod progress;
 mod render;
 mod scenes;
@@ -28,6 +30,8 @@ Examples:
   majorant scenes                                 list the embedded scenes
   majorant render first-light -o out.exr --spp 64
   majorant check                                  hold the estimators against known answers
+  majorant compare cloud-backlit --seconds 20 -o report --html
+                                                  which estimator wins, and by how much
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
 Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window."
@@ -45,6 +49,8 @@ enum Command {
     Render(render::Arguments),
     /// Hold every estimator against answers that are known, or against each other on your own scene.
     Check(check::Arguments),
+    /// Rank estimators on a scene: cost, noise, error, speed-up, bias; as a table, files, a page.
+    Compare(compare::Arguments),
     /// List the estimators.
     Estimators,
     /// Describe a volume, picture or scene file.
@@ -76,6 +82,7 @@ pub fn main() -> ExitCode {
         None => lab::run(arguments.lab),
         Some(Command::Render(a)) => render::run(&a),
         Some(Command::Check(a)) => check::run(&a),
+        Some(Command::Compare(a)) => compare::run(&a),
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),

@@ -1,7 +1,7 @@
 //! `majorant render`: the same session as the window, without a window.
 
 use super::progress::Progress;
-use super::{Failure, print_line, source};
+use super::{Failure, options, print_line, source};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, scene_file};
 use majorant_core::scene::{Limits, SceneDoc};
@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S")]
     seconds: Option<f32>,
     /// Image size in pixels.
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", value_parser = options::parse_size)]
     size: Option<[u32; 2]>,
     /// Selects the random numbers.
     #[arg(long, value_name = "N")]
@@ -53,27 +53,20 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let sides = text.split_once(['x', 'X', '×']);
-    sides
-        .and_then(|(w, h)| Some([w.trim().parse().ok()?, h.trim().parse().ok()?]))
-        .ok_or_else(|| format!("`{text}` is not a size: write WIDTHxHEIGHT, e.g. 256x256"))
-}
-
 impl Arguments {
     /// The overrides of the other options, as assignments to keys of the scene.
     fn assignments(&self) -> Vec<String> {
-        let mut all = self.set.clone();
-        let mut add = |key: &str, value: Option<String>| {
-            all.extend(value.map(|v| format!("{key}={v}")));
-        };
-        add("estimator.id", self.estimator.as_ref().map(|id| format!("{id:?}")));
-        add("estimator.max_depth", self.max_depth.map(|n| n.to_string()));
-        add("film.width", self.size.map(|s| s[0].to_string()));
-        add("film.height", self.size.map(|s| s[1].to_string()));
-        add("render.seed", self.seed.map(|n| n.to_string()));
-        add("render.threads", self.threads.map(|n| n.to_string()));
-        all
+        options::assignments(
+            &self.set,
+            &[
+                ("estimator.id", self.estimator.as_ref().map(|id| format!("{id:?}"))),
+                ("estimator.max_depth", self.max_depth.map(|n| n.to_string())),
+                ("film.width", self.size.map(|s| s[0].to_string())),
+                ("film.height", self.size.map(|s| s[1].to_string())),
+                ("render.seed", self.seed.map(|n| n.to_string())),
+                ("render.threads", self.threads.map(|n| n.to_string())),
+            ],
+        )
     }
 }
 
@@ -133,10 +126,7 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
             (Status::Failed(message), _) => return Err(Failure::Message(message)),
             (Status::Finished, Some(snapshot)) => {
                 progress.finish();
-                for notice in state.notices {
-                    use std::io::Write;
-                    let _ = writeln!(std::io::stderr(), "majorant: note: {notice}");
-                }
+                options::print_notes(&state.notices);
                 return Ok(snapshot);
             }
             _ => woken.recv()?,

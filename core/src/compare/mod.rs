@@ -14,11 +14,16 @@ pub mod curve;
 mod estimate;
 mod experiment;
 pub mod maps;
+mod open;
 mod ranking;
 mod reference;
+pub mod report;
+mod run;
 
 pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
 pub use estimate::{Estimate, RegionNoise};
 pub use experiment::{Experiment, View, label};
+pub use open::{ReferenceError, open};
 pub use ranking::{Against, Contender, Question, Standing, rank};
 pub use reference::Reference;
+pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, run};

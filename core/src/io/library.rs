@@ -59,6 +59,12 @@ impl Library {
         self
     }
 
+    /// Where a file that a scene names lies.
+    #[must_use]
+    pub fn locate(&self, file: &str) -> PathBuf {
+        if file.starts_with(embedded::PREFIX) { PathBuf::from(file) } else { self.base.join(file) }
+    }
+
     /// When the files that a document names were last written: a scene is out of date once they change.
     #[must_use]
     pub fn stamps(&self, doc: &SceneDoc) -> Vec<Option<SystemTime>> {
@@ -66,8 +72,7 @@ impl Library {
     }
 
     fn key(&self, file: &str, grid: Option<&String>) -> Key {
-        let path =
-            if file.starts_with(embedded::PREFIX) { PathBuf::from(file) } else { self.base.join(file) };
+        let path = self.locate(file);
         let modified = std::fs::metadata(&path).and_then(|m| m.modified()).ok();
         Key { path, grid: grid.cloned(), modified }
     }

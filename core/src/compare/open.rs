@@ -1,0 +1,134 @@
+//! Opens a reference for a scene, and says why another scene's is of no use.
+
+use super::experiment::label;
+use super::reference::Reference;
+use crate::io::picture::{self, PictureError};
+use crate::io::{Library, scene_file};
+use crate::scene::{Mode, SceneDoc};
+use std::path::Path;
+
+/// Why a picture cannot be the reference of a scene.
+#[derive(Debug, thiserror::Error)]
+pub enum ReferenceError {
+    /// It could not be read.
+    #[error("the reference {0}")]
+    Picture(#[from] PictureError),
+    /// It has another size.
+    #[error(
+        "the reference {file} has {} × {} pixels, but the scene {} × {}: render a new one of this size with \
+         `majorant render SCENE --spp 4096 -o {file}`, or give the scene the reference's size",
+        reference[0], reference[1], scene[0], scene[1]
+    )]
+    Size {
+        /// The reference's file.
+        file: String,
+        /// Its columns and rows.
+        reference: [usize; 2],
+        /// Those of the scene.
+        scene: [usize; 2],
+    },
+    /// It is a picture of something else.
+    #[error(
+        "the reference {file} shows another image ({reference}) than the scene ({scene}): {check}. Render a new \
+         one of this scene with `majorant render SCENE --spp 4096 -o {file}`, or name another file"
+    )]
+    Target {
+        /// The reference's file.
+        file: String,
+        /// The name of the image that it shows.
+        reference: String,
+        /// The name of the image that the scene shows.
+        scene: String,
+        /// What differs, as far as the file tells.
+        check: String,
+    },
+}
+
+/// Reads a reference for the image of a document's first view. A file that does not say what it shows, as one
+/// by another renderer, is taken on trust, with a note.
+///
+/// # Errors
+/// When it cannot be read, or has another size or shows another image than the scene.
+pub fn open(
+    file: &str,
+    doc: &SceneDoc,
+    library: &mut Library,
+    notes: &mut Vec<String>,
+) -> Result<Reference, ReferenceError> {
+    let path = library.locate(file);
+    let file = path.display().to_string();
+    let mut reference = Reference::read(&path)?;
+    let (size, scene) =
+        ([reference.width, reference.height], [doc.film.width as usize, doc.film.height as usize]);
+    let target = library.fingerprint(doc);
+    if size != scene {
+        return Err(ReferenceError::Size { file, reference: size, scene });
+    }
+    match reference.target.take() {
+        Some(shown) if shown != target => {
+            let check = difference(&path, doc);
+            return Err(ReferenceError::Target { file, reference: shown, scene: target, check });
+        }
+        None => notes.push(format!(
+            "{file} does not say which image it shows: it is taken on trust that it is this scene's, in linear sRGB"
+        )),
+        Some(_) => {}
+    }
+    reference.target = Some(target);
+    let seed = metadata(&path).and_then(|m| m["seed"].as_u64());
+    let shared: Vec<String> = (0..doc.view_count())
+        .filter(|view| seed.is_some() && doc.contender(*view).map(|c| c.seed) == seed)
+        .map(label)
+        .collect();
+    if let (Some(seed), false) = (seed, shared.is_empty()) {
+        notes.push(format!(
+            "{file} was rendered with seed {seed}, as is view {}: what they have in common looks like agreement; \
+             give the views other seeds",
+            shared.join(", ")
+        ));
+    }
+    Ok(reference)
+}
+
+/// What the program that wrote a picture says about it.
+fn metadata(path: &Path) -> Option<serde_json::Value> {
+    serde_json::from_str(&picture::exr_info(path).ok()?.metadata?).ok()
+}
+
+/// What to look at first: the parts of the scene in the file that are not the document's.
+fn difference(path: &Path, doc: &SceneDoc) -> String {
+    let metadata = metadata(path);
+    let text = metadata.as_ref().and_then(|m| m["scene"].as_str());
+    let Some(theirs) = text.and_then(|t| scene_file::parse(t, "the reference").ok()) else {
+        return "mode, depth, camera, medium or lights differ".into();
+    };
+    let mode = |m: Mode| if m == Mode::Rgb { "rgb" } else { "spectral" };
+    let depth = |d: Option<u32>| d.map_or("unlimited".into(), |d| d.to_string());
+    let (a, b) = (theirs.target_part(), doc.target_part());
+    let mut found = Vec::new();
+    if a.estimator.mode != b.estimator.mode {
+        found.push(format!(
+            "`estimator.mode` is {} there and {} here",
+            mode(a.estimator.mode),
+            mode(b.estimator.mode)
+        ));
+    }
+    if a.estimator.max_depth != b.estimator.max_depth {
+        found.push(format!(
+            "`estimator.max_depth` is {} there and {} here",
+            depth(a.estimator.max_depth),
+            depth(b.estimator.max_depth)
+        ));
+    }
+    let parts = [
+        ("camera", a.camera != b.camera),
+        ("medium", a.medium != b.medium),
+        ("lights", a.lights != b.lights),
+        ("objects", a.objects != b.objects),
+    ];
+    let others: Vec<&str> = parts.iter().filter(|(_, differs)| *differs).map(|(name, _)| *name).collect();
+    if !others.is_empty() {
+        found.push(format!("these differ: {}", others.join(", ")));
+    }
+    if found.is_empty() { "a file that the scene names has changed since".into() } else { found.join("; ") }
+}

@@ -1,0 +1,104 @@
+//! Everything that a report tells, computed once.
+
+use crate::compare::curve::{Axis, Point};
+use crate::compare::maps::{MAPS, Map, Range};
+use crate::compare::{Against, Estimate, Experiment, Reference, Standing, View};
+use crate::measure::{self, MEASURES, Measure};
+use std::borrow::Cow;
+
+/// A comparison with its numbers.
+pub(super) struct Gathered<'a> {
+    pub experiment: &'a Experiment,
+    /// With every measure, in the order of the views.
+    pub standings: Vec<Standing>,
+    /// The views that have a standing, in the same order.
+    pub views: Vec<Shown<'a>>,
+    /// The maps that some view has, each with the range that all views share.
+    pub maps: Vec<(&'static Map, Range)>,
+    /// The measure that the comparison is about.
+    pub measure: &'static Measure,
+}
+
+/// A view as it is shown.
+pub(super) struct Shown<'a> {
+    pub view: &'a View,
+    /// `A-nee`: its name in files.
+    pub name: String,
+    /// The maps that it has.
+    pub maps: Vec<(&'static Map, Vec<f32>)>,
+    /// Its error curve by every measure.
+    pub curves: Vec<(&'static Measure, Vec<Point>)>,
+}
+
+impl<'a> Gathered<'a> {
+    pub fn of(experiment: &'a Experiment) -> Self {
+        let standings = experiment.rank(MEASURES.iter().collect());
+        let ranked = |view: &View| standings.iter().any(|s| s.label == view.label);
+        let views: Vec<Shown<'_>> = experiment
+            .views
+            .iter()
+            .filter(|(_, view)| ranked(view))
+            .map(|(number, view)| Shown::of(experiment, *number, view))
+            .collect();
+        let maps = MAPS.iter().filter_map(|map| Some((map, range(map, &views)?))).collect();
+        let measure = measure::find(&experiment.doc.compare.measure.0).unwrap_or(&MEASURES[0]);
+        Self { experiment, standings, views, maps, measure }
+    }
+
+    /// The reference that all views share, if there is one.
+    pub fn reference(&self) -> Option<&Reference> {
+        self.experiment.reference.as_deref()
+    }
+
+    /// What the views were held against, in words.
+    pub fn held_against(&self) -> String {
+        match (self.reference(), self.standings.iter().find(|s| !matches!(s.against, Against::Nothing(_)))) {
+            (Some(reference), _) => reference.origin.clone(),
+            (None, Some(_)) => "for every view the mean of the other unbiased views".into(),
+            (None, None) => "nothing".into(),
+        }
+    }
+}
+
+impl<'a> Shown<'a> {
+    fn of(experiment: &Experiment, number: usize, view: &'a View) -> Self {
+        let (_, held) = experiment.held_against(number);
+        let held: Option<Cow<'_, Reference>> = held;
+        let maps = Estimate::of(&view.snapshot).map(|estimate| {
+            let reference = held.as_ref().map(|r| r.estimate());
+            let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference.as_ref())));
+            values.filter(|(_, values)| values.iter().any(|v| v.is_finite())).collect()
+        });
+        let curves = MEASURES.iter().map(|measure| {
+            let kept = view.checkpoints.kept().iter();
+            let points = held.as_ref().map(|held| {
+                kept.filter_map(|c| c.point(measure, held, experiment.region())).collect::<Vec<_>>()
+            });
+            (measure, points.unwrap_or_default())
+        });
+        Self {
+            view,
+            name: format!("{}-{}", view.label, view.doc.estimator.id),
+            maps: maps.unwrap_or_default(),
+            curves: curves.collect(),
+        }
+    }
+
+    /// The values of a map, if the view has it.
+    pub fn map(&self, map: &Map) -> Option<&[f32]> {
+        self.maps.iter().find(|(m, _)| m.id == map.id).map(|(_, values)| values.as_slice())
+    }
+
+    /// Its error curve by a measure, as far as it can be drawn by decades.
+    pub fn curve(&self, measure: &Measure, axis: Axis) -> Vec<Point> {
+        let points = self.curves.iter().find(|(m, _)| m.id == measure.id).map(|(_, p)| p.as_slice());
+        let drawable = |p: &&Point| p.value > 0.0 && p.value.is_finite() && p.at(axis) > 0.0;
+        points.unwrap_or_default().iter().filter(drawable).copied().collect()
+    }
+}
+
+/// The range of a map over all views that have it.
+fn range(map: &Map, views: &[Shown<'_>]) -> Option<Range> {
+    let values: Vec<&[f32]> = views.iter().filter_map(|v| v.map(map)).collect();
+    (!values.is_empty()).then(|| Range::of(map.scale, values.into_iter()))
+}

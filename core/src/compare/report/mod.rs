@@ -1,0 +1,137 @@
+//! A comparison as files: pictures, maps, tables, curves, and a page that shows them.
+//!
+//! ```text
+//!   Experiment ──► Gathered (ranking, maps, ranges, curves) ──┬─► A-nee.png, A-nee.z.png, A-nee.exr
+//!                                                             ├─► compare.exr, ranking.csv, curves.csv
+//!                                                             └─► compare.json, scene.toml, index.html
+//! ```
+//!
+//! One format is one file of this room. Everything is written from the same numbers.
+
+mod gather;
+mod json;
+mod layers;
+mod page;
+mod pictures;
+mod plot;
+mod reproduce;
+mod row;
+mod tables;
+pub mod words;
+
+#[cfg(test)]
+mod fixture;
+
+use super::Experiment;
+use crate::io::export::ExportError;
+use crate::io::scene_file;
+use gather::Gathered;
+pub use row::{Row, rows};
+use std::path::{Path, PathBuf};
+
+/// Why a report could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The folder or a file in it could not be written.
+    #[error("{path} could not be written: {reason}. Choose another folder, or free some space.")]
+    Write {
+        /// The folder or file.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// A picture could not be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// No view has a picture with noise that is known.
+    #[error(
+        "there is nothing to report yet: every view needs at least {} samples per pixel",
+        super::LEAST_SAMPLES
+    )]
+    Nothing,
+}
+
+impl ReportError {
+    fn write(path: &Path, reason: impl ToString) -> Self {
+        Self::Write { path: path.display().to_string(), reason: reason.to_string() }
+    }
+}
+
+/// What of a report is written, and what it tells beyond the numbers.
+#[derive(Clone, Debug, Default)]
+pub struct Formats {
+    /// A PNG of every view, of each of its maps, and of the reference; an EXR of every view.
+    pub pictures: bool,
+    /// `compare.exr`: everything in the layers of one file.
+    pub layers: bool,
+    /// `ranking.csv` and `curves.csv`.
+    pub tables: bool,
+    /// `compare.json`.
+    pub json: bool,
+    /// `index.html`.
+    pub page: bool,
+    /// The command that made it, if it was one.
+    pub command: Option<String>,
+    /// What else wants to be known, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Formats {
+    /// Everything.
+    #[must_use]
+    pub fn all() -> Self {
+        Self { pictures: true, layers: true, tables: true, json: true, page: true, ..Self::default() }
+    }
+}
+
+/// Makes the folder of a report; asked before anything is rendered.
+///
+/// # Errors
+/// When it cannot be made, or nothing can be written into it.
+pub fn make_folder(dir: &Path) -> Result<(), ReportError> {
+    std::fs::create_dir_all(dir).map_err(|e| ReportError::write(dir, e))?;
+    // Permission to make a folder is not permission to write into one that is there.
+    let probe = dir.join(".majorant");
+    std::fs::write(&probe, [])
+        .and_then(|()| std::fs::remove_file(&probe))
+        .map_err(|e| ReportError::write(dir, e))
+}
+
+/// Writes a report into a folder, and always `scene.toml`, the scene that repeats it. Returns the files.
+///
+/// # Errors
+/// When the folder cannot be made or a file not written, or no view has three samples per pixel.
+pub fn write(experiment: &Experiment, dir: &Path, what: &Formats) -> Result<Vec<PathBuf>, ReportError> {
+    make_folder(dir)?;
+    let gathered = Gathered::of(experiment);
+    if gathered.standings.is_empty() {
+        return Err(ReportError::Nothing);
+    }
+    let mut files = Vec::new();
+    let text = |files: &mut Vec<PathBuf>, name: &str, text: &str| {
+        let path = dir.join(name);
+        std::fs::write(&path, text).map_err(|e| ReportError::write(&path, e))?;
+        files.push(path);
+        Ok::<(), ReportError>(())
+    };
+    text(&mut files, "scene.toml", &scene_file::to_toml(&experiment.doc))?;
+    if what.pictures {
+        pictures::write(&gathered, dir, &mut files)?;
+    }
+    if what.layers {
+        let path = dir.join("compare.exr");
+        layers::write(&gathered, &path)?;
+        files.push(path);
+    }
+    if what.tables {
+        text(&mut files, "ranking.csv", &tables::ranking(&gathered)?)?;
+        text(&mut files, "curves.csv", &tables::curves(&gathered)?)?;
+    }
+    if what.json {
+        text(&mut files, "compare.json", &json::document(&gathered, what)?)?;
+    }
+    if what.page {
+        text(&mut files, "index.html", &page::render(&gathered, what)?)?;
+    }
+    Ok(files)
+}

@@ -1,0 +1,234 @@
+//! Numbers and verdicts in words, the same in tables, pages and windows.
+
+use crate::compare::{Against, Standing, Verdict};
+
+/// The digits of an exponent.
+fn superscript(exponent: i32) -> String {
+    let digit = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        c => c.to_digit(10).and_then(|d| char::from_u32(0x2070 + d)).unwrap_or(c),
+    };
+    exponent.to_string().chars().map(digit).collect()
+}
+
+/// A power of ten.
+#[must_use]
+pub fn power_of_ten(exponent: i32) -> String {
+    format!("10{}", superscript(exponent))
+}
+
+/// The exponent of the first digit, once rounded to three.
+fn exponent(x: f64) -> i32 {
+    format!("{:.2e}", x.abs()).split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
+}
+
+/// Exponents that are written out as zeros.
+const PLAIN: std::ops::RangeInclusive<i32> = -3..=4;
+
+/// A minus that is as wide as a plus.
+fn signed(text: String) -> String {
+    text.replace('-', "−")
+}
+
+/// A number of three digits: `0.0123`, `12 300`, `1.23 × 10⁻⁵`; `–` for what is none.
+#[must_use]
+pub fn number(x: f64) -> String {
+    if !x.is_finite() {
+        return if x.is_infinite() {
+            signed(format!("{}∞", if x < 0.0 { "-" } else { "" }))
+        } else {
+            "–".into()
+        };
+    }
+    if x == 0.0 {
+        return "0".into();
+    }
+    let e = exponent(x);
+    if PLAIN.contains(&e) {
+        return signed(grouped(&format!("{x:.*}", usize::try_from(2 - e).unwrap_or(0))));
+    }
+    signed(format!("{:.2} × {}", x / 10f64.powi(e), power_of_ten(e)))
+}
+
+/// Thousands apart, from five digits on.
+fn grouped(text: &str) -> String {
+    let digits = text.trim_start_matches('-');
+    if digits.contains('.') || digits.len() < 5 {
+        return text.to_owned();
+    }
+    let cut = text.len() - 3;
+    format!("{}\u{202f}{}", &text[..cut], &text[cut..])
+}
+
+/// A value with its error, both to the error's second digit: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`.
+#[must_use]
+pub fn quantity(value: f64, error: f64) -> String {
+    if !value.is_finite() || !error.is_finite() || error <= 0.0 || value == 0.0 {
+        return number(value);
+    }
+    let (e, digit) = (exponent(value), exponent(error));
+    // At least as many digits as the error has, at most four of the value.
+    let digits = (e - digit + 1).clamp(1, 3);
+    if PLAIN.contains(&e) {
+        let places = usize::try_from(digits - e).unwrap_or(0);
+        return signed(format!("{value:.places$} ± {error:.places$}"));
+    }
+    let (scale, places) = (10f64.powi(e), usize::try_from(digits).unwrap_or(1));
+    signed(format!("({:.places$} ± {:.places$}) × {}", value / scale, error / scale, power_of_ten(e)))
+}
+
+/// A probability, without its leading zero: `.43`.
+#[must_use]
+pub fn probability(p: f64) -> String {
+    if !p.is_finite() {
+        "–".into()
+    } else if p < 0.005 {
+        number(p)
+    } else if p >= 0.995 {
+        "1".into()
+    } else {
+        format!("{p:.2}").trim_start_matches('0').to_owned()
+    }
+}
+
+/// A share in percent.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    if !share.is_finite() {
+        return "–".into();
+    }
+    let x = 100.0 * share;
+    let places = if x.abs() >= 9.95 {
+        0
+    } else if x.abs() >= 0.095 {
+        1
+    } else {
+        2
+    };
+    signed(format!("{x:.places$} %"))
+}
+
+/// A difference in percent with its error: `+2.1 % ± 0.3 %`.
+fn difference(value: f64, error: f64) -> String {
+    let places =
+        if 100.0 * error >= 0.95 { 0 } else { usize::try_from(-exponent(100.0 * error)).unwrap_or(1) };
+    let places = places.min(3);
+    signed(format!("{:+.places$} % ± {:.places$} %", 100.0 * value, 100.0 * error))
+}
+
+/// How many times as efficient as the baseline, with its interval: `3.2 [3.0, 3.4]`.
+#[must_use]
+pub fn speedup(standing: &Standing) -> String {
+    let [lo, hi] = standing.speedup_interval;
+    let times = |x: f64| match x {
+        x if !x.is_finite() => number(x),
+        x if x >= 100.0 => grouped(&format!("{x:.0}")),
+        x if x >= 10.0 => format!("{x:.1}"),
+        x if x >= 0.1 => format!("{x:.2}"),
+        x => number(x),
+    };
+    match standing.speedup {
+        x if x == 1.0 && lo == hi => "1 (baseline)".into(),
+        x if x.is_nan() => "–".into(),
+        // Two passes have to have been timed.
+        x if !hi.is_finite() => format!("{} [?]", times(x)),
+        x => format!("{} [{}, {}]", times(x), times(lo), times(hi)),
+    }
+}
+
+/// What a view was held against.
+#[must_use]
+pub fn against(against: &Against) -> String {
+    match against {
+        Against::Reference(origin) => origin.clone(),
+        Against::Others(labels) => format!("mean of {labels}"),
+        Against::Nothing(why) => format!("nothing: {why}"),
+    }
+}
+
+/// A z beyond which the mean of the whole is what differs.
+const FAR: f64 = 4.0;
+
+/// The verdict with the number that it rests on: `agrees (p = .43)`, `biased: +2.1 % ± 0.3 %`.
+#[must_use]
+pub fn verdict(standing: &Standing) -> String {
+    let Some(found) = standing.agreement else {
+        let why = match &standing.against {
+            Against::Nothing(why) => why,
+            _ => "it cannot be held against anything",
+        };
+        return format!("undecided: {why}");
+    };
+    let text = match found.verdict {
+        Verdict::Agrees => format!("agrees (p = {})", probability(found.p)),
+        Verdict::Undecided if found.excluded > 0 && found.p.is_nan() => {
+            "undecided: pixels without a value".into()
+        }
+        Verdict::Undecided => "undecided: too noisy to tell".into(),
+        Verdict::Differs => match found.worst.filter(|_| found.z.abs() < FAR) {
+            Some(worst) => format!(
+                "biased: {} near pixel {}, {}",
+                difference(worst.difference, worst.error),
+                (worst.region.x0 + worst.region.x1) / 2,
+                (worst.region.y0 + worst.region.y1) / 2
+            ),
+            None => format!("biased: {}", difference(found.difference, found.error)),
+        },
+    };
+    match standing.declared_bias {
+        Some(why) => format!("{text}; {why}"),
+        None => text,
+    }
+}
+
+/// A word that a shell leaves alone.
+#[must_use]
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_honest() {
+        for (x, text) in [
+            (0.012_345, "0.0123"),
+            (0.0, "0"),
+            (1.0, "1.00"),
+            (999.6, "1000"),
+            (12_345.0, "12\u{202f}345"),
+            (-1.234e-7, "−1.23 × 10⁻⁷"),
+            (9.999e-8, "1.00 × 10⁻⁷"),
+            (4.5e12, "4.50 × 10¹²"),
+            (f64::NAN, "–"),
+            (f64::INFINITY, "∞"),
+        ] {
+            assert_eq!(number(x), text);
+        }
+        assert_eq!(quantity(0.012_345, 0.000_42), "0.01234 ± 0.00042");
+        assert_eq!(quantity(1.2345e-6, 4.2e-8), "(1.234 ± 0.042) × 10⁻⁶");
+        assert_eq!(quantity(2.0, f64::INFINITY), "2.00");
+        assert_eq!([0.43, 0.0012, 1.0, f64::NAN].map(probability), [".43", "0.00120", "1", "–"]);
+        assert_eq!([0.5, 0.021, 0.000_4].map(percent), ["50 %", "2.1 %", "0.04 %"]);
+        assert_eq!(difference(0.021, 0.003), "+2.1 % ± 0.3 %");
+        assert_eq!(difference(-0.212, 0.031), "−21 % ± 3 %");
+        assert_eq!(difference(0.002_12, 0.000_2), "+0.21 % ± 0.02 %");
+    }
+
+    #[test]
+    fn shells_leave_quoted_words_alone() {
+        assert_eq!(quoted("a=1.5"), "a=1.5");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+        assert_eq!(quoted(""), "''");
+    }
+}

@@ -1,0 +1,235 @@
+//! Runs a comparison to its end without a window.
+//!
+//! ```text
+//!   SceneDoc with views ──► Session (fair turns, reference in the background) ──► Experiment
+//! ```
+//!
+//! A reference that is rendered costs the views nothing: CPU seconds are counted per view.
+
+use super::curve::Checkpoints;
+use super::experiment::{Experiment, View, label};
+use super::open::{ReferenceError, open};
+use super::reference::Reference;
+use crate::estimator;
+use crate::film::Snapshot;
+use crate::io::Library;
+use crate::scene::{Limits, ReferenceDoc, SceneDoc};
+use crate::session::{Job, Role, Session, Status, ViewId, ViewState};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, sync_channel};
+
+/// Fewer samples per pixel say nothing about their own noise.
+pub const LEAST_SAMPLES: u32 = 3;
+
+/// Why a comparison came to no end.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Something in the document makes no sense.
+    #[error("{0}")]
+    Invalid(crate::scene::Problem),
+    /// A view has no limit.
+    #[error("view {label} would never end: limit its samples or its CPU seconds")]
+    Endless {
+        /// Which view.
+        label: String,
+    },
+    /// The rendered reference has no limit.
+    #[error("the reference would never end: give `compare.reference` a limit, `spp` or `relative_error`")]
+    EndlessReference,
+    /// A view could not be rendered.
+    #[error("view {label} ({estimator}): {message}")]
+    Failed {
+        /// Which view, or `reference`.
+        label: String,
+        /// Its estimator's id.
+        estimator: String,
+        /// The cause and the cure.
+        message: String,
+    },
+    /// The reference is of no use.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
+    /// The operating system refused a thread.
+    #[error("no thread could be started: {0}. Close other programs, or try again.")]
+    Thread(std::io::Error),
+    /// The session ended by itself.
+    #[error("the renderer stopped by itself: try again")]
+    Stopped,
+}
+
+/// How far a comparison is.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// From 0 to 1, over everything that is rendered.
+    pub fraction: f64,
+    /// Samples per pixel of every view, in their order; those of a rendered reference come last.
+    pub spp: Vec<u32>,
+}
+
+/// A comparison at its end.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// The views with their pictures, early and last, and the reference.
+    pub experiment: Experiment,
+    /// What wants to be known: repaired files, what was taken on trust.
+    pub notes: Vec<String>,
+}
+
+/// Renders every view of a document to its limit ([`SceneDoc::view_docs`]) and the reference to its own, by
+/// [`crate::scene::CompareDoc::fairness`]. Views that end below [`LEAST_SAMPLES`] get as many nevertheless.
+///
+/// # Errors
+/// When the document makes no sense, a view cannot be rendered, or the reference is missing or of
+/// something else.
+pub fn run(
+    doc: &SceneDoc,
+    mut library: Library,
+    mut progress: impl FnMut(&Progress),
+) -> Result<Finished, RunError> {
+    if let Some(problem) = estimator::validate(doc).into_iter().next() {
+        return Err(RunError::Invalid(problem));
+    }
+    let docs: Vec<Arc<SceneDoc>> = doc.view_docs().into_iter().map(Arc::new).collect();
+    if let Some(view) = docs.iter().position(|d| d.render.limits().are_none()) {
+        return Err(RunError::Endless { label: label(view) });
+    }
+    let mut notes = Vec::new();
+    let mut reference = match &doc.compare.reference {
+        ReferenceDoc::File { file } => Some(open(file, doc, &mut library, &mut notes)?),
+        _ => None,
+    };
+    let background = background(doc, &docs)?;
+
+    let mut running = Running::start(doc, docs, background, library)?;
+    let ended = running.wait(&mut progress)?;
+    for state in &ended {
+        notes.extend(state.notices.iter().filter(|n| !notes.contains(n)).cloned().collect::<Vec<_>>());
+    }
+    let snapshots: Vec<Arc<Snapshot>> = ended.into_iter().filter_map(|s| s.snapshot).collect();
+    let views = running.contenders.iter().zip(&running.checkpoints).zip(&snapshots).enumerate();
+    let views: Vec<(usize, View)> = views
+        .map(|(i, ((doc, checkpoints), snapshot))| {
+            let (doc, snapshot) = (Arc::clone(doc), Arc::clone(snapshot));
+            (i, View { label: label(i), doc, snapshot, checkpoints: Arc::new(checkpoints.clone()) })
+        })
+        .collect();
+    if let (Some(doc), Some(snapshot)) = (&running.background, snapshots.last()) {
+        let name = estimator::find(&doc.estimator.id).map_or("", |e| e.name);
+        reference = Some(Reference::of(snapshot, format!("{name}, {} samples per pixel", snapshot.spp)));
+    }
+    if let ReferenceDoc::View { view } = doc.compare.reference {
+        let promoted = views.get(view).map(|(_, v)| v);
+        reference = promoted.map(|v| Reference::of(&v.snapshot, format!("view {}", v.label)));
+    }
+    let experiment = Experiment { doc: Arc::new(doc.clone()), views, reference: reference.map(Arc::new) };
+    Ok(Finished { experiment, notes })
+}
+
+/// The document of a reference that is still to be rendered, with random numbers that no view has.
+fn background(doc: &SceneDoc, views: &[Arc<SceneDoc>]) -> Result<Option<Arc<SceneDoc>>, RunError> {
+    let Some(mut reference) = doc.reference_doc() else { return Ok(None) };
+    if reference.render.limits().are_none() {
+        return Err(RunError::EndlessReference);
+    }
+    while views.iter().any(|v| v.render.seed == reference.render.seed) {
+        reference.render.seed += 1;
+    }
+    Ok(Some(Arc::new(reference)))
+}
+
+/// A session with the views of a comparison.
+struct Running {
+    contenders: Vec<Arc<SceneDoc>>,
+    background: Option<Arc<SceneDoc>>,
+    checkpoints: Vec<Checkpoints>,
+    /// Goes before the session: a session that waits to be heard would not end.
+    woken: Receiver<()>,
+    session: Session,
+}
+
+impl Running {
+    fn start(
+        doc: &SceneDoc,
+        contenders: Vec<Arc<SceneDoc>>,
+        background: Option<Arc<SceneDoc>>,
+        library: Library,
+    ) -> Result<Self, RunError> {
+        let (wake, woken) = sync_channel::<()>(0);
+        // Two handshakes: the session goes on once its news has been looked at, so that every picture is
+        // seen and the same run has the same checkpoints.
+        let session = Session::new(library, move || {
+            let _ = wake.send(()).and_then(|()| wake.send(()));
+        })
+        .map_err(RunError::Thread)?;
+        session.set_fairness(doc.compare.fairness);
+        let checkpoints = vec![Checkpoints::default(); contenders.len()];
+        let running = Self { contenders, background, checkpoints, woken, session };
+        for (id, (doc, role)) in running.jobs().enumerate() {
+            let job = Job { doc: Arc::clone(doc), preview: false, role };
+            running.session.submit(ViewId(id as u32), job);
+        }
+        Ok(running)
+    }
+
+    /// Everything that is rendered, views first.
+    fn jobs(&self) -> impl Iterator<Item = (&Arc<SceneDoc>, Role)> {
+        let views = self.contenders.iter().map(|doc| (doc, Role::Contender));
+        views.chain(self.background.iter().map(|doc| (doc, Role::Background)))
+    }
+
+    /// The states of all views once every one has ended.
+    fn wait(&mut self, progress: &mut impl FnMut(&Progress)) -> Result<Vec<ViewState>, RunError> {
+        let mut extended = false;
+        loop {
+            self.woken.recv().map_err(|_| RunError::Stopped)?;
+            let states: Vec<ViewState> =
+                (0..self.jobs().count()).map(|id| self.session.state(ViewId(id as u32))).collect();
+            let mut fractions = Vec::new();
+            for (id, ((doc, _), state)) in self.jobs().zip(&states).enumerate() {
+                if let Status::Failed(message) = &state.status {
+                    let label = if id < self.contenders.len() { label(id) } else { "reference".into() };
+                    let (estimator, message) = (doc.estimator.id.clone(), message.clone());
+                    return Err(RunError::Failed { label, estimator, message });
+                }
+                fractions.push(fraction(&doc.render.limits(), state));
+            }
+            for (checkpoints, state) in self.checkpoints.iter_mut().zip(&states) {
+                if let Some(snapshot) = &state.snapshot {
+                    checkpoints.observe(snapshot);
+                }
+            }
+            progress(&Progress {
+                fraction: fractions.iter().sum::<f64>() / fractions.len().max(1) as f64,
+                spp: states.iter().map(|s| s.snapshot.as_ref().map_or(0, |s| s.spp)).collect(),
+            });
+            if states.iter().all(|s| s.status == Status::Finished) {
+                let short = |s: &ViewState| s.snapshot.as_ref().is_none_or(|s| s.spp < LEAST_SAMPLES);
+                if extended || !states.iter().any(short) {
+                    return Ok(states);
+                }
+                for id in (0..states.len()).filter(|id| short(&states[*id])) {
+                    self.session.set_limits(ViewId(id as u32), Limits::samples(LEAST_SAMPLES));
+                }
+                extended = true;
+            }
+            self.woken.recv().map_err(|_| RunError::Stopped)?;
+        }
+    }
+}
+
+/// How far a view is on its way to the limit that it is nearest to.
+fn fraction(limits: &Limits, state: &ViewState) -> f64 {
+    let Some(snapshot) = &state.snapshot else { return 0.0 };
+    if state.status == Status::Finished {
+        return 1.0;
+    }
+    let of = |limit: Option<f32>, had: f64| limit.map_or(0.0, |limit| had / f64::from(limit));
+    let by_samples = limits.spp.map_or(0.0, |spp| f64::from(snapshot.spp) / f64::from(spp));
+    // Errors fall with the root of the samples.
+    let by_error = limits.relative_error.map_or(0.0, |e| (f64::from(e) / snapshot.relative_error()).powi(2));
+    let nearest = by_samples
+        .max(of(limits.seconds, snapshot.seconds))
+        .max(of(limits.cpu_seconds, snapshot.cpu_seconds))
+        .max(by_error);
+    nearest.clamp(0.0, 1.0)
+}
