@@ -132,3 +132,70 @@ fn difference(path: &Path, doc: &SceneDoc) -> String {
     }
     if found.is_empty() { "a file that the scene names has changed since".into() } else { found.join("; ") }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::report::fixture;
+    use crate::compare::{Finished, run};
+    use crate::io::export;
+    use crate::scene::{Limits, ReferenceDoc};
+
+    /// The fixture without a reference, with the picture of its first view as a file.
+    fn rendered(folder: &Path) -> (SceneDoc, String) {
+        let mut doc = fixture::doc("opened");
+        doc.compare.reference = ReferenceDoc::None;
+        let Finished { experiment, .. } = run(&doc, Library::default(), |_| {}).unwrap();
+        let path = folder.join("reference.exr");
+        let view = &experiment.views[0].1;
+        export::write_exr(&path, &view.snapshot, &view.doc).unwrap();
+        (doc, path.display().to_string())
+    }
+
+    fn opened(file: &str, doc: &SceneDoc) -> (Result<Reference, ReferenceError>, Vec<String>) {
+        let mut notes = Vec::new();
+        (open(file, doc, &mut Library::default(), &mut notes), notes)
+    }
+
+    #[test]
+    fn a_reference_of_the_scene_fits_and_shared_random_numbers_are_noticed() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut doc, file) = rendered(folder.path());
+        let (reference, notes) = opened(&file, &doc);
+        assert!(reference.unwrap().fits(&Library::default().fingerprint(&doc)));
+        assert!(notes.len() == 1 && notes[0].contains("seed 0, as is view A"), "{notes:?}");
+        doc.render.seed = 77;
+        doc.render.set_limits(Limits::samples(9));
+        assert!(opened(&file, &doc).1.is_empty());
+    }
+
+    #[test]
+    fn another_image_or_size_is_refused_by_what_differs() {
+        let folder = tempfile::tempdir().unwrap();
+        let (doc, file) = rendered(folder.path());
+        let refused = |edit: fn(&mut SceneDoc)| {
+            let mut doc = doc.clone();
+            edit(&mut doc);
+            opened(&file, &doc).0.unwrap_err().to_string()
+        };
+        let mode = refused(|d| d.estimator.mode = Mode::Spectral);
+        assert!(mode.contains("`estimator.mode` is rgb there and spectral here"), "{mode}");
+        assert!(mode.contains("majorant render"), "{mode}");
+        assert!(refused(|d| d.estimator.max_depth = Some(2)).contains("unlimited there and 2 here"));
+        assert!(refused(|d| d.medium.scale = 2.0).contains("these differ: medium"));
+        let size = refused(|d| d.film.width = 25);
+        assert!(size.contains("24 × 16") && size.contains("25 × 16"), "{size}");
+        assert!(opened("nowhere.exr", &doc).0.unwrap_err().to_string().contains("nowhere.exr"));
+    }
+
+    #[test]
+    fn a_picture_by_somebody_else_is_taken_on_trust() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("theirs.exr");
+        exr::prelude::write_rgb_file(&path, 24, 16, |_, _| (0.5f32, 0.5f32, 0.5f32)).unwrap();
+        let (reference, notes) = opened(&path.display().to_string(), &fixture::doc("theirs"));
+        let reference = reference.unwrap();
+        assert!(reference.target.is_some() && reference.standard_error.is_none());
+        assert!(notes.len() == 1 && notes[0].contains("on trust"), "{notes:?}");
+    }
+}

@@ -233,3 +233,89 @@ fn fraction(limits: &Limits, state: &ViewState) -> f64 {
         .max(by_error);
     nearest.clamp(0.0, 1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::Verdict;
+    use crate::compare::report::fixture;
+    use crate::measure::MEASURES;
+    use crate::scene::Fairness;
+
+    #[test]
+    fn unbiased_estimators_are_never_called_biased() {
+        let mut decided = 0;
+        for seed in 0..20 {
+            let mut doc = fixture::doc("seeds");
+            doc.compare.reference = ReferenceDoc::None;
+            doc.compare.views.truncate(1);
+            (doc.film.width, doc.film.height) = (32, 32);
+            (doc.render.seed, doc.compare.views[0].seed) = (2 * seed, 2 * seed + 1);
+            doc.render.spp = Some(24);
+            let experiment = run(&doc, Library::default(), |_| {}).unwrap().experiment;
+            for standing in experiment.rank(Vec::new()) {
+                assert_ne!(standing.verdict(), Verdict::Differs, "seed {seed}: {standing:?}");
+                decided += usize::from(standing.verdict() == Verdict::Agrees);
+            }
+        }
+        assert!(decided >= 30, "{decided} of 40 are decided");
+    }
+
+    #[test]
+    fn every_view_gets_its_samples_its_checkpoints_and_its_reference() {
+        let mut last = 0.0;
+        let finished = run(&fixture::doc("all"), Library::default(), |p| {
+            assert!(p.spp.len() == 4 && (0.0..=1.0).contains(&p.fraction));
+            last = p.fraction;
+        });
+        let experiment = finished.unwrap().experiment;
+        assert_eq!(last, 1.0);
+        assert_eq!(experiment.reference.as_ref().unwrap().noise.as_ref().unwrap()[0].samples, 64);
+        for (_, view) in &experiment.views {
+            assert_eq!(view.snapshot.spp, 8);
+            let spp: Vec<u32> = view.checkpoints.kept().iter().map(|c| c.spp).collect();
+            assert!(spp.len() >= 3 && spp[0] == 1, "{spp:?}");
+        }
+        for standing in experiment.rank(MEASURES.iter().collect()) {
+            assert_eq!(standing.efficiency, 1.0 / (standing.variance * standing.cpu_seconds));
+            assert_eq!(standing.errors.len(), MEASURES.len());
+        }
+    }
+
+    #[test]
+    fn a_view_can_be_the_reference_and_no_time_is_too_short() {
+        let mut doc = fixture::doc("short");
+        doc.compare.reference = ReferenceDoc::View { view: 1 };
+        doc.compare.fairness = Fairness::Lookups;
+        doc.render.set_limits(Limits { cpu_seconds: Some(1e-6), ..Limits::default() });
+        let experiment = run(&doc, Library::default(), |_| {}).unwrap().experiment;
+        let standings = experiment.rank(Vec::new());
+        assert_eq!(standings.len(), 3);
+        assert!(standings.iter().all(|s| s.spp == LEAST_SAMPLES));
+        assert!(standings[1].agreement.is_none() && standings[0].agreement.is_some());
+    }
+
+    #[test]
+    fn what_cannot_end_is_refused() {
+        let refused = |edit: fn(&mut SceneDoc)| {
+            let mut doc = fixture::doc("refused");
+            edit(&mut doc);
+            run(&doc, Library::default(), |_| {}).unwrap_err().to_string()
+        };
+        assert!(refused(|d| d.render.set_limits(Limits::default())).contains("view A"));
+        assert!(refused(|d| d.compare.views[0].estimator.id = "magic".into()).contains("magic"));
+        let endless = refused(|d| {
+            d.compare.reference =
+                ReferenceDoc::Render { estimator: "nee".into(), spp: None, relative_error: None };
+        });
+        assert!(endless.contains("compare.reference"), "{endless}");
+        let file = "no-such-volume.vdb";
+        let unread = refused(|d| {
+            d.medium.density = crate::scene::DensityDoc::Grid(crate::scene::GridRef {
+                file: "no-such-volume.vdb".into(),
+                grid: None,
+            })
+        });
+        assert!(unread.contains("view A") && unread.contains(file), "{unread}");
+    }
+}

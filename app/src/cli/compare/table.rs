@@ -51,7 +51,7 @@ fn cells(s: &Standing, measures: &[&Measure]) -> Vec<String> {
         words::number(s.variance),
         words::percent(s.chroma_variance / s.variance),
         words::number(s.efficiency),
-        words::speedup(s),
+        [words::speedup(s), words::interval(s).unwrap_or_default()].join(" ").trim_end().to_owned(),
         words::verdict(s),
     ]);
     cells

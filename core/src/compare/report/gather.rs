@@ -1,6 +1,6 @@
 //! Everything that a report tells, computed once.
 
-use crate::compare::curve::{Axis, Point};
+use crate::compare::curve::{Axis, Checkpoint, Point};
 use crate::compare::maps::{MAPS, Map, Range};
 use crate::compare::{Against, Estimate, Experiment, Reference, Standing, View};
 use crate::measure::{self, MEASURES, Measure};
@@ -69,8 +69,11 @@ impl<'a> Shown<'a> {
             let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference.as_ref())));
             values.filter(|(_, values)| values.iter().any(|v| v.is_finite())).collect()
         });
+        // A curve ends with what the table says, however near the last checkpoint is.
+        let last = view.checkpoints.kept().last().is_none_or(|c| c.spp < view.snapshot.spp);
+        let last = last.then(|| Checkpoint::of(&view.snapshot));
         let curves = MEASURES.iter().map(|measure| {
-            let kept = view.checkpoints.kept().iter();
+            let kept = view.checkpoints.kept().iter().chain(&last);
             let points = held.as_ref().map(|held| {
                 kept.filter_map(|c| c.point(measure, held, experiment.region())).collect::<Vec<_>>()
             });

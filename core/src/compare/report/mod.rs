@@ -20,7 +20,7 @@ mod tables;
 pub mod words;
 
 #[cfg(test)]
-mod fixture;
+pub(in crate::compare) mod fixture;
 
 use super::Experiment;
 use crate::io::export::ExportError;
@@ -134,4 +134,49 @@ pub fn write(experiment: &Experiment, dir: &Path, what: &Formats) -> Result<Vec<
         text(&mut files, "index.html", &page::render(&gathered, what)?)?;
     }
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_report_holds_what_was_asked_for() {
+        let experiment = fixture::experiment("A cloud");
+        let folder = tempfile::tempdir().unwrap();
+        let dir = folder.path().join("new").join("report");
+        let names = |what: &Formats| -> Vec<String> {
+            let files = write(&experiment, &dir, what).unwrap();
+            assert!(files.iter().all(|f| f.metadata().unwrap().len() > 0));
+            files.iter().map(|f| f.file_name().unwrap().to_string_lossy().into_owned()).collect()
+        };
+        assert_eq!(names(&Formats::default()), ["scene.toml"]);
+        let all = names(&Formats::all());
+        for name in [
+            "A-spectral-mis.png",
+            "B-nee.z.png",
+            "C-uni-nee-mis.exr",
+            "reference.png",
+            "compare.exr",
+            "ranking.csv",
+            "curves.csv",
+            "compare.json",
+            "index.html",
+        ] {
+            assert!(all.iter().any(|n| n == name), "{name} is not in {all:?}");
+        }
+        let scene = scene_file::load(&dir.join("scene.toml")).unwrap();
+        assert_eq!(scene, *experiment.doc);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        std::fs::write(&file, "x").unwrap();
+        let error = make_folder(&file.join("report")).unwrap_err().to_string();
+        assert!(error.contains("file") && error.contains("Choose another folder"), "{error}");
+        let nothing = Experiment { views: Vec::new(), ..fixture::experiment("A cloud") };
+        assert!(matches!(write(&nothing, folder.path(), &Formats::all()), Err(ReportError::Nothing)));
+    }
 }

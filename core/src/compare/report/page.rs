@@ -73,6 +73,7 @@ mod tests {
                 words::number(standing.cpu_seconds),
                 words::number(standing.lookups_per_path),
                 words::speedup(standing),
+                words::interval(standing).unwrap_or_default(),
             ] {
                 assert!(page.contains(&text), "{text}");
             }

@@ -81,12 +81,13 @@ fn fixed(x: f64) -> String {
 }
 
 fn slope(law: &PowerLaw) -> String {
-    let error = law.slope_error;
-    let known = if error.is_finite() { format!(" ± {error:.2}") } else { String::new() };
-    format!("{:.2}{known}", law.slope).replace('-', "−")
+    let places = if law.slope_error < 0.01 { 3 } else { 2 };
+    let error = Some(law.slope_error).filter(|e| e.is_finite());
+    let error = error.map_or_else(String::new, |e| format!(" ± {:.places$}", e.max(0.001)));
+    format!("{:.places$}{error}", law.slope).replace('-', "−")
 }
 
-/// The whole decades, or their thirds, around some values.
+/// A range around some values, with a margin.
 fn around(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (lo, hi) = values.fold((f64::INFINITY, 0.0f64), |(lo, hi), x| (lo.min(x), hi.max(x)));
     (lo.is_finite() && hi > 0.0).then(|| {
@@ -127,8 +128,8 @@ fn draw(svg: &mut String, curves: &[Vec<Point>], gathered: &Gathered<'_>, axis: 
         .axis_desc_style(text(15))
         .x_desc(axis.name())
         .y_desc(gathered.measure.name)
-        .x_label_formatter(&|x| words::number(*x))
-        .y_label_formatter(&|y| words::number(*y))
+        .x_label_formatter(&|x| words::tick(*x))
+        .y_label_formatter(&|y| words::tick(*y))
         .draw()
         .ok()?;
     // The guide starts where the first curve does.

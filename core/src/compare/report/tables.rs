@@ -144,8 +144,13 @@ mod tests {
             assert_eq!(line[column("verdict")], standing.verdict().to_string());
         }
         let lines = records(&curves(&gathered).unwrap());
-        let checkpoints: usize = experiment.views.iter().map(|(_, v)| v.checkpoints.kept().len()).sum();
-        assert!(checkpoints >= 9);
-        assert_eq!(lines.len(), checkpoints * MEASURES.len());
+        let points: usize = gathered.views.iter().map(|v| v.curves[0].1.len()).sum();
+        assert!(points >= 9);
+        assert_eq!(lines.len(), points * MEASURES.len());
+        // Every curve ends with the table's picture.
+        let last = lines.iter().rfind(|l| &l[0] == "A" && &l[4] == "relmse").unwrap();
+        assert_eq!(&last[1], "8");
+        let error = gathered.standings[0].error("relmse").unwrap().corrected();
+        assert_eq!(last[5].parse::<f64>().unwrap(), error);
     }
 }

@@ -63,6 +63,19 @@ fn grouped(text: &str) -> String {
     format!("{}\u{202f}{}", &text[..cut], &text[cut..])
 }
 
+/// A number that is exact as it is: `0.1`, `20`.
+#[must_use]
+pub fn tick(x: f64) -> String {
+    let text = number(x);
+    let (mantissa, power) = text.split_at(text.find(" ×").unwrap_or(text.len()));
+    let short =
+        if mantissa.contains('.') { mantissa.trim_end_matches('0').trim_end_matches('.') } else { mantissa };
+    match short {
+        "1" if !power.is_empty() => power.trim_start_matches(" × ").to_owned(),
+        short => format!("{short}{power}"),
+    }
+}
+
 /// A value with its error, both to the error's second digit: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`.
 #[must_use]
 pub fn quantity(value: f64, error: f64) -> String {
@@ -119,23 +132,37 @@ fn difference(value: f64, error: f64) -> String {
     signed(format!("{:+.places$} % ± {:.places$} %", 100.0 * value, 100.0 * error))
 }
 
-/// How many times as efficient as the baseline, with its interval: `3.2 [3.0, 3.4]`.
+/// A factor, to two or three digits.
+#[must_use]
+pub fn times(x: f64) -> String {
+    let decimals = match x {
+        x if !x.is_finite() || x < 1e-4 => return number(x),
+        x if x >= 100.0 => 0,
+        x if x >= 10.0 => 1,
+        x if x >= 0.1 => 2,
+        x => usize::try_from(1 - exponent(x)).unwrap_or(2),
+    };
+    grouped(&format!("{x:.decimals$}"))
+}
+
+/// How many times as efficient as the baseline.
 #[must_use]
 pub fn speedup(standing: &Standing) -> String {
-    let [lo, hi] = standing.speedup_interval;
-    let times = |x: f64| match x {
-        x if !x.is_finite() => number(x),
-        x if x >= 100.0 => grouped(&format!("{x:.0}")),
-        x if x >= 10.0 => format!("{x:.1}"),
-        x if x >= 0.1 => format!("{x:.2}"),
-        x => number(x),
-    };
-    match standing.speedup {
-        x if x == 1.0 && lo == hi => "1 (baseline)".into(),
-        x if x.is_nan() => "–".into(),
+    match (standing.speedup, standing.speedup_interval) {
+        (x, _) if x.is_nan() => "–".into(),
+        (_, [1.0, 1.0]) => "1 (baseline)".into(),
+        (x, _) => times(x),
+    }
+}
+
+/// The 95 % interval of that, `[3.0, 3.4]`; the baseline has none.
+#[must_use]
+pub fn interval(standing: &Standing) -> Option<String> {
+    match standing.speedup_interval {
+        [1.0, 1.0] => None,
         // Two passes have to have been timed.
-        x if !hi.is_finite() => format!("{} [?]", times(x)),
-        x => format!("{} [{}, {}]", times(x), times(lo), times(hi)),
+        [lo, hi] if !lo.is_finite() || !hi.is_finite() => None,
+        [lo, hi] => Some(format!("[{}, {}]", times(lo), times(hi))),
     }
 }
 
@@ -215,8 +242,10 @@ mod tests {
         ] {
             assert_eq!(number(x), text);
         }
-        assert_eq!(quantity(0.012_345, 0.000_42), "0.01234 ± 0.00042");
-        assert_eq!(quantity(1.2345e-6, 4.2e-8), "(1.234 ± 0.042) × 10⁻⁶");
+        assert_eq!([0.1, 20.0, 1e-6, 2.5e7].map(tick), ["0.1", "20", "10⁻⁶", "2.5 × 10⁷"]);
+        assert_eq!([0.000_276_2, 0.314, 3.2, 3621.0].map(times), ["0.00028", "0.31", "3.20", "3621"]);
+        assert_eq!(quantity(0.012_34, 0.000_42), "0.01234 ± 0.00042");
+        assert_eq!(quantity(1.234e-6, 4.2e-8), "(1.234 ± 0.042) × 10⁻⁶");
         assert_eq!(quantity(2.0, f64::INFINITY), "2.00");
         assert_eq!([0.43, 0.0012, 1.0, f64::NAN].map(probability), [".43", "0.00120", "1", "–"]);
         assert_eq!([0.5, 0.021, 0.000_4].map(percent), ["50 %", "2.1 %", "0.04 %"]);

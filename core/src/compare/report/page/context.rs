@@ -20,6 +20,10 @@ pub(super) struct Context {
     size: String,
     against: String,
     fairness: &'static str,
+    /// What every view had, if all had the same.
+    budget: Option<String>,
+    /// Pictures side by side, at most.
+    columns: usize,
     threads: usize,
     region: Option<String>,
     summary: String,
@@ -53,6 +57,7 @@ struct Line {
     chroma: String,
     efficiency: String,
     speedup: String,
+    interval: Option<String>,
     verdict: String,
     /// `agrees`, `biased` or `undecided`.
     kind: String,
@@ -131,6 +136,8 @@ impl Context {
                 Fairness::Samples => "samples per pixel",
                 Fairness::Lookups => "look-ups of the medium",
             },
+            budget: budget(gathered),
+            columns: columns(gathered.views.len() + usize::from(gathered.reference().is_some())),
             threads: first.map_or(0, |s| s.threads),
             region: doc.compare.region.map(|[x0, y0, x1, y1]| {
                 format!("columns {x0} to {} and rows {y0} to {}", x1.saturating_sub(1), y1.saturating_sub(1))
@@ -158,29 +165,55 @@ impl Context {
     }
 }
 
+fn budget(gathered: &Gathered<'_>) -> Option<String> {
+    let first = gathered.standings.first()?;
+    if gathered.standings.iter().all(|s| s.spp == first.spp) {
+        return Some(format!("{} samples per pixel", first.spp));
+    }
+    gathered.experiment.doc.render.cpu_seconds.map(|s| format!("{} CPU seconds", words::tick(s.into())))
+}
+
+/// As few rows as leave the pictures large enough, and none of a single picture.
+fn columns(pictures: usize) -> usize {
+    match pictures {
+        0 => 1,
+        1..=4 => pictures,
+        5 | 6 => 3,
+        _ => 4,
+    }
+}
+
 /// What came of it in a sentence or two.
 fn summary(standings: &[Standing]) -> String {
-    let unbiased = || standings.iter().filter(|s| s.verdict() != Verdict::Differs);
-    let best = unbiased().max_by(|a, b| a.efficiency.total_cmp(&b.efficiency));
-    let worst = unbiased().min_by(|a, b| a.efficiency.total_cmp(&b.efficiency));
-    let mut text = match (best, worst) {
-        (Some(best), Some(worst)) if best.label != worst.label => format!(
-            "{} ({}) is the most efficient, {} times as efficient as {} ({}).",
+    let those = |verdict: Verdict| standings.iter().filter(move |s| s.verdict() == verdict);
+    let labels = |verdict| those(verdict).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ");
+    // What is too noisy to tell may have missed its brightest paths, and with them most of its variance.
+    let mut sure: Vec<&Standing> = those(Verdict::Agrees).collect();
+    sure.sort_by(|a, b| b.efficiency.total_cmp(&a.efficiency));
+    let mut sentences = Vec::new();
+    match sure[..] {
+        [best, next, ..] => sentences.push(format!(
+            "{} (view {}) is the most efficient, {} times as efficient as the next, {} ({}).",
             best.name,
             best.label,
-            words::number(best.efficiency / worst.efficiency),
-            worst.name,
-            worst.label
-        ),
-        (Some(best), _) => format!("{} ({}) stands alone.", best.name, best.label),
-        _ => String::new(),
-    };
-    let biased: Vec<&str> =
-        standings.iter().filter(|s| s.verdict() == Verdict::Differs).map(|s| s.label.as_str()).collect();
-    if !biased.is_empty() {
-        text += &format!(" Biased, and ranked last: {}.", biased.join(", "));
+            words::times(best.efficiency / next.efficiency),
+            next.name,
+            next.label
+        )),
+        [only] => {
+            sentences.push(format!("Of {} (view {}) alone it is sure that it agrees.", only.name, only.label))
+        }
+        [] => {}
     }
-    text
+    for (verdict, text) in
+        [(Verdict::Undecided, "Not decided:"), (Verdict::Differs, "Biased, and therefore ranked last:")]
+    {
+        let labels = labels(verdict);
+        if !labels.is_empty() {
+            sentences.push(format!("{text} {labels}."));
+        }
+    }
+    sentences.join(" ")
 }
 
 /// The most efficient first, the biased last.
@@ -206,6 +239,7 @@ fn ranking(gathered: &Gathered<'_>) -> Vec<Line> {
             chroma: words::percent(s.chroma_variance / s.variance),
             efficiency: words::number(s.efficiency),
             speedup: words::speedup(s),
+            interval: words::interval(s),
             verdict: words::verdict(s),
             kind: s.verdict().to_string(),
         })
@@ -280,7 +314,7 @@ fn legend(range: &Range) -> Legend {
     let at = [0.0, 0.25, 0.5, 0.75, 1.0];
     let tick = |position: &f32| Tick {
         percent: format!("{:.0}", 100.0 * position),
-        text: words::number(f64::from(range.value(*position))),
+        text: words::tick(f64::from(range.value(*position))),
     };
     Legend { gradient: stops.collect::<Vec<_>>().join(", "), ticks: at.iter().map(tick).collect() }
 }
