@@ -1,6 +1,9 @@
 //! The page that shows a comparison: one HTML file that needs nothing else.
 
 mod context;
+mod gallery;
+mod ranking;
+mod settings;
 
 use super::gather::Gathered;
 use super::{Formats, ReportError};

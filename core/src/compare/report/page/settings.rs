@@ -1,0 +1,66 @@
+//! What every view was made with.
+
+use crate::compare::Standing;
+use crate::compare::report::gather::{Gathered, Shown};
+use crate::compare::report::{reproduce, words};
+use crate::scene::{Absorption, MajorantDoc, Mode, WhenExceeded};
+use serde::Serialize;
+
+/// What a view is made with.
+#[derive(Serialize)]
+pub(super) struct Setting {
+    label: String,
+    name: String,
+    mode: &'static str,
+    absorption: &'static str,
+    depth: String,
+    roulette: String,
+    majorant: String,
+    seed: u64,
+    spp: u32,
+    against: String,
+    command: Option<String>,
+}
+
+/// The settings of every view, in their order.
+pub(super) fn settings(gathered: &Gathered<'_>) -> Vec<Setting> {
+    gathered.views.iter().zip(&gathered.standings).map(|view| setting(gathered, view)).collect()
+}
+
+fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) -> Setting {
+    let doc = &shown.view.doc;
+    let estimator = &doc.estimator;
+    Setting {
+        label: standing.label.clone(),
+        name: standing.name.clone(),
+        mode: match estimator.mode {
+            Mode::Spectral => "spectral",
+            Mode::Rgb => "RGB",
+        },
+        absorption: match estimator.absorption {
+            Absorption::Analogue => "analogue",
+            Absorption::Weighted => "weighted",
+        },
+        depth: estimator.max_depth.map_or_else(|| "unlimited".into(), |d| d.to_string()),
+        roulette: estimator.roulette_depth.map_or_else(|| "never".into(), |d| format!("after {d}")),
+        majorant: majorant(&doc.medium.majorant),
+        seed: doc.render.seed,
+        spp: standing.spp,
+        against: words::against(&standing.against),
+        command: reproduce::command(shown, &gathered.experiment.doc),
+    }
+}
+
+fn majorant(doc: &MajorantDoc) -> String {
+    let mut text = format!("× {}", doc.factor);
+    if doc.shared {
+        text += ", shared by all components";
+    }
+    if doc.factor < 1.0 {
+        text += match doc.when_exceeded {
+            WhenExceeded::Clamp => ", clamped",
+            WhenExceeded::Weighted => ", weighted where exceeded",
+        };
+    }
+    text
+}
