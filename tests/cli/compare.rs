@@ -81,7 +81,7 @@ fn compare_ranks_and_finds_the_biased_view() {
         let number = |key: &str| row[key].as_f64().unwrap();
         assert_eq!((&row["seed"], &row["spp"], &row["mode"]), (&seed.into(), &64.into(), &"rgb".into()));
         assert!((number("efficiency") * number("variance") * number("seconds") - 1.0).abs() < 1e-12, "{row}");
-        assert!(number("lookups_per_path") > 1.0 && number("relmse") > 0.0, "{row}");
+        assert!(number("lookups_per_path") > 0.0 && number("relmse") > 0.0, "{row}");
         assert_eq!(row["against"], "NEE, 256 samples per pixel");
     }
     assert_eq!((&rows[1]["speedup"], &rows[1]["speedup_ci"]), (&1.0.into(), &serde_json::json!([1.0, 1.0])));

@@ -26,7 +26,7 @@ pub(super) struct Shown<'a> {
     pub name: String,
     /// The maps that it has.
     pub maps: Vec<(&'static Map, Vec<f32>)>,
-    /// Its error curve by every measure.
+    /// Its error curve by every measure that is followed.
     pub curves: Vec<(&'static Measure, Vec<Point>)>,
 }
 
@@ -72,7 +72,11 @@ impl<'a> Shown<'a> {
         // A curve ends with what the table says, however near the last checkpoint is.
         let last = view.checkpoints.kept().last().is_none_or(|c| c.spp < view.snapshot.spp);
         let last = last.then(|| Checkpoint::of(&view.snapshot));
-        let curves = MEASURES.iter().map(|measure| {
+        // FLIP looks at every pixel's neighbourhood under many exposures: once per view is enough, unless the
+        // comparison is about it.
+        let chosen = &experiment.doc.compare.measure.0;
+        let followed = MEASURES.iter().filter(|m| m.id != "flip" || m.id == chosen);
+        let curves = followed.map(|measure| {
             let kept = view.checkpoints.kept().iter().chain(&last);
             let points = held.as_ref().map(|held| {
                 kept.filter_map(|c| c.point(measure, held, experiment.region())).collect::<Vec<_>>()
