@@ -76,7 +76,8 @@ pub fn tick(x: f64) -> String {
     }
 }
 
-/// A value with its error, both to the error's second digit: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`.
+/// A value with its error, both to the error's second digit: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`. A line
+/// may break before the ± but not after it.
 #[must_use]
 pub fn quantity(value: f64, error: f64) -> String {
     if !value.is_finite() || !error.is_finite() || error <= 0.0 || value == 0.0 {
@@ -87,10 +88,10 @@ pub fn quantity(value: f64, error: f64) -> String {
     let digits = (e - digit + 1).clamp(1, 3);
     if PLAIN.contains(&e) {
         let places = usize::try_from(digits - e).unwrap_or(0);
-        return signed(format!("{value:.places$} ± {error:.places$}"));
+        return signed(format!("{value:.places$} ±\u{a0}{error:.places$}"));
     }
     let (scale, places) = (10f64.powi(e), usize::try_from(digits).unwrap_or(1));
-    signed(format!("({:.places$} ± {:.places$}) × {}", value / scale, error / scale, power_of_ten(e)))
+    signed(format!("({:.places$} ±\u{a0}{:.places$}) × {}", value / scale, error / scale, power_of_ten(e)))
 }
 
 /// A probability, without its leading zero: `.43`.
@@ -244,8 +245,8 @@ mod tests {
         }
         assert_eq!([0.1, 20.0, 1e-6, 2.5e7].map(tick), ["0.1", "20", "10⁻⁶", "2.5 × 10⁷"]);
         assert_eq!([0.000_276_2, 0.314, 3.2, 3621.0].map(times), ["0.00028", "0.31", "3.20", "3621"]);
-        assert_eq!(quantity(0.012_34, 0.000_42), "0.01234 ± 0.00042");
-        assert_eq!(quantity(1.234e-6, 4.2e-8), "(1.234 ± 0.042) × 10⁻⁶");
+        assert_eq!(quantity(0.012_34, 0.000_42), "0.01234 ±\u{a0}0.00042");
+        assert_eq!(quantity(1.234e-6, 4.2e-8), "(1.234 ±\u{a0}0.042) × 10⁻⁶");
         assert_eq!(quantity(2.0, f64::INFINITY), "2.00");
         assert_eq!([0.43, 0.0012, 1.0, f64::NAN].map(probability), [".43", "0.00120", "1", "–"]);
         assert_eq!([0.5, 0.021, 0.000_4].map(percent), ["50 %", "2.1 %", "0.04 %"]);
