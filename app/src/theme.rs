@@ -101,20 +101,11 @@ impl Palette {
     }
 }
 
-/// Colours of the views A to F in plots and captions: Okabe and Ito's, which colour-blind eyes tell apart.
-const VIEWS: [Color32; 6] = [
-    Color32::from_rgb(0, 114, 178),
-    Color32::from_rgb(230, 159, 0),
-    Color32::from_rgb(0, 158, 115),
-    Color32::from_rgb(213, 94, 0),
-    Color32::from_rgb(204, 121, 167),
-    Color32::from_rgb(86, 180, 233),
-];
-
-/// The colour of a view, from 0.
+/// The colour of a view in plots and captions, from 0.
 #[must_use]
 pub fn view_colour(view: usize) -> Color32 {
-    VIEWS[view % VIEWS.len()]
+    let [r, g, b] = majorant_core::compare::view_colour(view);
+    Color32::from_rgb(r, g, b)
 }
 
 /// Installs fonts and both themes; [`Context::set_theme`] switches between them afterwards.

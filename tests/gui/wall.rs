@@ -279,6 +279,25 @@ fn the_wall_is_saved_with_the_scene() {
 }
 
 #[test]
+fn a_report_is_written_from_the_window() {
+    let (mut lab, directory) = biased();
+    finished(&mut lab);
+    let folder = directory.path().join("report");
+    lab.state_mut().request(Command::Chosen(majorant::lab::Purpose::ExportReport, folder.clone()));
+    let page = folder.join("index.html");
+    wait(&mut lab, "the page", |app| app.messages().lines().iter().any(|l| l.text.starts_with("Wrote")));
+    let text = std::fs::read_to_string(page).expect("a page");
+    assert!(text.contains("the majorant is clamped"));
+    assert!(folder.join("compare.exr").exists() && folder.join("ranking.csv").exists());
+    // A folder that cannot be made is a message, and nothing else.
+    let blocked = directory.path().join("biased.toml").join("report");
+    lab.state_mut().request(Command::Chosen(majorant::lab::Purpose::ExportReport, blocked));
+    wait(&mut lab, "the refusal", |app| {
+        app.messages().lines().iter().any(|l| l.text.contains("biased.toml"))
+    });
+}
+
+#[test]
 fn presets_are_two_clicks_away() {
     for preset in PRESETS {
         let first = embedded::SCENES[0].name.to_owned();

@@ -25,6 +25,8 @@ pub enum Purpose {
     ExportPng,
     /// An EXR picture that errors are measured against.
     Reference,
+    /// The folder that a report on the comparison is written into.
+    ExportReport,
 }
 
 /// How a question about unsaved changes was answered.

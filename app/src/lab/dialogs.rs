@@ -31,6 +31,7 @@ impl PathPrompt {
             Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Open", "path/to/volume.vdb"),
             Purpose::EnvironmentMap(_) => ("Open environment map", "Open", "path/to/sky.exr"),
             Purpose::Reference => ("Open reference", "Open", "path/to/reference.exr"),
+            Purpose::ExportReport => ("Export comparison", "Export", "path/to/folder"),
             Purpose::SaveScene => ("Save scene", "Save", "path/to/scene.toml"),
             Purpose::ExportExr => ("Export EXR", "Export", "path/to/render.exr"),
             Purpose::ExportPng => ("Export PNG", "Export", "path/to/render.png"),
@@ -44,6 +45,9 @@ impl PathPrompt {
             Purpose::DensityFile => "It replaces the density; the placement stays.",
             Purpose::EnvironmentMap(_) => "An equirectangular picture, linear sRGB.",
             Purpose::Reference => "An EXR of this scene; standard errors are used if it holds them.",
+            Purpose::ExportReport => {
+                "A folder: a page that shows it all (index.html), every picture and map, one EXR with layers, tables."
+            }
             Purpose::SaveScene => "An existing file is replaced.",
             Purpose::ExportExr => "Linear radiance, standard error, and the scene, as OpenEXR.",
             Purpose::ExportPng => "The picture as it is shown: exposure, tone curve and gamma applied.",

@@ -69,6 +69,7 @@ impl LabApp {
             Purpose::SaveScene => format!("{stem}.toml"),
             Purpose::ExportExr => format!("{stem}.exr"),
             Purpose::ExportPng => format!("{stem}.png"),
+            Purpose::ExportReport => format!("{stem}-comparison"),
             _ => String::new(),
         }
     }
@@ -80,6 +81,7 @@ impl LabApp {
             Purpose::OpenVolume => self.attempt(|app| app.tasks.look_into(path)),
             Purpose::SaveScene => self.save_to(&path),
             Purpose::Reference => self.hold_against(&path),
+            Purpose::ExportReport => self.export_report(path),
             Purpose::ExportExr | Purpose::ExportPng => self.export(purpose == Purpose::ExportPng, path),
             Purpose::DensityFile => {
                 let file = self.short_name(&path);
@@ -191,6 +193,14 @@ impl LabApp {
         };
         let doc = self.document.resolved();
         self.attempt(|app| app.tasks.export(png, path, snapshot, doc));
+    }
+
+    fn export_report(&mut self, folder: PathBuf) {
+        let mut experiment = self.wall.experiment();
+        // The scene is written beside the report: its files must be found from there.
+        experiment.doc = std::sync::Arc::new(self.document.resolved());
+        self.messages.say(Severity::Done, format!("Writing the comparison to {}.", folder.display()));
+        self.attempt(|app| app.tasks.report(folder, experiment));
     }
 
     pub(super) fn list_grids(&mut self, file: String) {

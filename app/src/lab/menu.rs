@@ -60,6 +60,7 @@ impl LabApp {
         ui.separator();
         item(ui, "Export EXR…", Command::Ask(Purpose::ExportExr), commands);
         item(ui, "Export PNG…", Command::Ask(Purpose::ExportPng), commands);
+        item(ui, "Export comparison…", Command::Ask(Purpose::ExportReport), commands);
         ui.separator();
         item(ui, "Quit", Command::Quit, commands);
     }
@@ -138,6 +139,7 @@ impl LabApp {
             commands.push(Command::Wall(WallEdit::OwnZoom(own)));
         }
         item(ui, "Numbers", Command::ToggleDock, commands);
+        item(ui, "Export report…", Command::Ask(Purpose::ExportReport), commands);
         item(ui, "Load reference…", Command::Ask(Purpose::Reference), commands);
     }
 

@@ -3,7 +3,7 @@
 
 use super::Purpose;
 use crate::model::own_volume::{self, Look};
-use majorant_core::compare::Reference;
+use majorant_core::compare::{Experiment, Reference, report};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, volume};
 use majorant_core::scene::SceneDoc;
@@ -85,6 +85,17 @@ impl Tasks {
         })
     }
 
+    /// Writes a report on a comparison.
+    ///
+    /// # Errors
+    /// When there is no thread to be had.
+    pub fn report(&self, folder: PathBuf, experiment: Experiment) -> Result<(), String> {
+        self.spawn("report", move || {
+            let written = report::write(&experiment, &folder, &report::Formats::all());
+            Outcome::Exported(folder, written.map(|_| ()).map_err(|e| e.to_string()))
+        })
+    }
+
     /// Looks into a volume before the document is changed for it.
     ///
     /// # Errors
@@ -143,6 +154,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
         Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),
+        Purpose::ExportReport => return dialog.set_title("Export comparison").pick_folder(),
         Purpose::ExportExr => ("Export EXR", "OpenEXR", &["exr"], "render.exr"),
         Purpose::ExportPng => ("Export PNG", "PNG", &["png"], "render.png"),
     };

@@ -165,7 +165,7 @@ fn region_gesture(
     let (a, b) = (corner(from), corner(to));
     let (low, high) = (a.min(b).floor(), a.max(b).ceil());
     let holds = high.x - low.x >= 2.0 && high.y - low.y >= 2.0;
-    Some(holds.then(|| [low.x as u32, low.y as u32, high.x as u32, high.y as u32]))
+    Some(holds.then_some([low.x as u32, low.y as u32, high.x as u32, high.y as u32]))
 }
 
 /// The box and the pixel that numbers are about.

@@ -19,15 +19,24 @@ const SHARE: u32 = 5;
 /// Samples of a pixel that are traced again, per view and analysis.
 const TRACED: u64 = 2048;
 /// The most samples of a pixel that are kept.
-const KEPT: u64 = 100_000;
+pub(super) const KEPT: u64 = 100_000;
 
 /// What shall be analysed.
 #[derive(Clone)]
 pub struct Question {
     /// The views with their pictures.
     pub experiment: Experiment,
-    /// A pixel whose samples are wanted, with what traces them in every view.
-    pub pixel: Option<([usize; 2], Vec<(usize, Probe)>)>,
+    /// A pixel whose samples are wanted.
+    pub pixel: Option<PickedPixel>,
+}
+
+/// A pixel whose samples are wanted.
+#[derive(Clone)]
+pub struct PickedPixel {
+    /// Column and row.
+    pub at: [usize; 2],
+    /// What traces its paths in every view, by the view's number.
+    pub probes: Vec<(usize, Probe)>,
 }
 
 /// The error curve of a view.
@@ -167,8 +176,17 @@ fn run(desk: &(Mutex<Desk>, Condvar), wanted: Wanted<'_>, repaint: &dyn Fn()) {
 struct Memory {
     /// Points of curves, by view, with all that they depend on but the checkpoint.
     curves: BTreeMap<usize, (CurveKey, Vec<Point>)>,
-    /// Samples of the pixel, by view and generation of its probe.
-    pixel: Option<([usize; 2], BTreeMap<usize, (u64, Arc<Vec<PixelSample>>)>)>,
+    /// Which pixel `traced` belongs to.
+    pixel: Option<[usize; 2]>,
+    /// Samples of the pixel, by view.
+    traced: BTreeMap<usize, Traced>,
+}
+
+/// The first samples of a pixel in one submission.
+#[derive(Default)]
+struct Traced {
+    generation: u64,
+    samples: Arc<Vec<PixelSample>>,
 }
 
 /// What the early points of a curve depend on.
@@ -202,7 +220,7 @@ impl Memory {
             measure: chosen,
             curves: chosen.map(|m| self.curves(experiment, m)).unwrap_or_default(),
             pair: pair(experiment, compare.pair),
-            pixel: question.pixel.as_ref().map(|p| (p.0, self.samples(p, experiment, wanted))),
+            pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, wanted))),
             seconds: 0.0,
         }
     }
@@ -232,30 +250,28 @@ impl Memory {
     /// Traces the pixel's samples again, some at a time.
     fn samples(
         &mut self,
-        (at, probes): &([usize; 2], Vec<(usize, Probe)>),
+        picked: &PickedPixel,
         experiment: &Experiment,
         wanted: Wanted<'_>,
     ) -> Vec<PixelSamples> {
-        let at = *at;
-        if self.pixel.as_ref().is_none_or(|(known, _)| *known != at) {
-            self.pixel = Some((at, BTreeMap::new()));
+        if self.pixel != Some(picked.at) {
+            (self.pixel, self.traced) = (Some(picked.at), BTreeMap::new());
         }
-        let Some((_, known)) = &mut self.pixel else { return Vec::new() };
+        let at = (picked.at[0] as u32, picked.at[1] as u32);
         let mut all = Vec::new();
-        for (number, probe) in probes {
+        for (number, probe) in &picked.probes {
             let Some((_, view)) = experiment.views.iter().find(|(n, _)| n == number) else { continue };
-            let key = view.snapshot.generation;
-            let (known_key, samples) = known.entry(*number).or_default();
-            if *known_key != key {
-                (*known_key, *samples) = (key, Arc::default());
+            let traced = self.traced.entry(*number).or_default();
+            if traced.generation != view.snapshot.generation {
+                *traced = Traced { generation: view.snapshot.generation, samples: Arc::default() };
             }
-            let first = samples.len() as u64;
+            let first = traced.samples.len() as u64;
             let last = u64::from(view.snapshot.spp).min(first + TRACED).min(KEPT);
             if first < last {
-                let more = probe.samples((at[0] as u32, at[1] as u32), first..last, wanted);
-                Arc::make_mut(samples).extend(more);
+                let more = probe.samples(at, first..last, wanted);
+                Arc::make_mut(&mut traced.samples).extend(more);
             }
-            all.push(PixelSamples { view: *number, samples: Arc::clone(samples) });
+            all.push(PixelSamples { view: *number, samples: Arc::clone(&traced.samples) });
         }
         all
     }

@@ -1,6 +1,6 @@
 //! What the wall holds between frames.
 
-use super::analyst::{Analysis, Analyst, Question};
+use super::analyst::{Analysis, Analyst, KEPT, PickedPixel, Question};
 use super::reference::{ReferenceKeeper, ReferenceState};
 use super::slot::{Slot, assign};
 use crate::view::developer::{MapPrint, Order, OrderedView, Print, Sight};
@@ -212,7 +212,7 @@ impl Wall {
             let probe = |(i, s): (usize, &Slot)| Some((i, s.state.probe.clone()?));
             self.slots.iter().enumerate().filter_map(probe).collect()
         };
-        let pixel = self.picked.map(|at| (at, probes()));
+        let pixel = self.picked.map(|at| PickedPixel { at, probes: probes() });
         self.analyst.ask(Question { experiment, pixel });
     }
 
@@ -222,7 +222,7 @@ impl Wall {
         self.picked == Some(*at)
             && samples.iter().any(|s| {
                 let spp = self.slots.get(s.view).map_or(0, |slot| slot.stats.spp as usize);
-                s.samples.len() < spp.min(100_000)
+                s.samples.len() < spp.min(KEPT as usize)
             })
     }
 

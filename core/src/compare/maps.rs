@@ -114,7 +114,7 @@ pub static MAPS: &[Map] = &[
     Map {
         id: "z",
         name: "z: bias",
-        formula: "(A − R) / √(V_A + V_R) in grey: beyond ±4 is no chance. No reference is needed: another unbiased view will do. Skewed noise tints blue while samples are few; then blocks tell more",
+        formula: "(A − R) / √(V_A + V_R) in grey: noise is of size 1, a bias keeps one colour. Another unbiased view will do as a reference. Skewed noise tints blue while samples are few: then blocks tell more, and the verdict takes it into account",
         scale: Scale::Fixed(4.0),
         needs_reference: true,
         block: 1,

@@ -22,7 +22,7 @@ mod run;
 
 pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
 pub use estimate::{Estimate, RegionNoise};
-pub use experiment::{Experiment, View, label};
+pub use experiment::{Experiment, View, label, view_colour};
 pub use open::{ReferenceError, open};
 pub use ranking::{Against, Contender, Question, Standing, rank};
 pub use reference::Reference;

@@ -4,6 +4,7 @@ use super::estimate::Estimate;
 use crate::film::{Noise, Snapshot};
 use crate::io::picture::{self, PictureError};
 use crate::measure::{Picture, Region};
+use rayon::prelude::*;
 use std::path::Path;
 
 /// A picture that others are held against, with its own noise and the image that it belongs to.
@@ -67,7 +68,11 @@ impl Reference {
     pub fn pooled(snapshots: &[&Snapshot], origin: impl Into<String>) -> Option<Self> {
         let estimates: Vec<Estimate<'_>> = snapshots.iter().filter_map(|s| Estimate::of(s)).collect();
         let first = snapshots.first()?;
-        if estimates.len() != snapshots.len() {
+        let alike = |s: &&Snapshot| {
+            (s.width, s.height) == (first.width, first.height)
+                && [s.mean.len(), s.standard_error.len(), s.noise.len()] == [first.mean.len(); 3]
+        };
+        if estimates.len() != snapshots.len() || !snapshots.iter().all(alike) {
             return None;
         }
         let whole = Region::whole(first.width, first.height);
@@ -79,37 +84,36 @@ impl Reference {
             .collect();
         let total: f64 = inverse.iter().sum();
         let weights: Vec<f64> = inverse.iter().map(|w| w / total).collect();
-        let sum = |value: &dyn Fn(&Snapshot) -> Option<f64>, power: i32| -> f64 {
-            snapshots.iter().zip(&weights).map(|(s, w)| w.powi(power) * value(s).unwrap_or(f64::NAN)).sum()
-        };
-        let count = whole.x1 * whole.y1;
-        let of_pixels = |value: &dyn Fn(&Snapshot, usize, usize) -> Option<f32>, power: i32, root: bool| {
-            (0..count)
-                .map(|i| {
-                    std::array::from_fn(|c| {
-                        let squared = |x: f32| if root { f64::from(x).powi(2) } else { f64::from(x) };
-                        let sum = sum(&|s| value(s, i, c).map(squared), power);
-                        (if root { sum.sqrt() } else { sum }) as f32
-                    })
-                })
-                .collect::<Vec<[f32; 3]>>()
-        };
-        let noise = (0..count).map(|i| {
-            let at = |s: &Snapshot| s.noise.get(i).copied();
-            Noise {
-                chroma_variance: sum(&|s| at(s).map(|n| n.chroma_variance.into()), 2) as f32,
-                third_moment: sum(&|s| at(s).map(|n| n.third_moment.into()), 3) as f32,
-                variance_error: sum(&|s| at(s).map(|n| f64::from(n.variance_error).powi(2)), 4).sqrt() as f32,
-                samples: snapshots.iter().filter_map(|s| at(s)).map(|n| n.samples).sum(),
-                lookups: snapshots.iter().filter_map(|s| at(s)).map(|n| n.lookups).sum(),
+        let count = first.mean.len();
+        let pixel = |i: usize| {
+            let (mut mean, mut variance) = ([0.0f64; 3], [0.0f64; 3]);
+            let (mut chroma, mut third, mut spread) = (0.0, 0.0, 0.0);
+            let mut noise = Noise { samples: 0, lookups: 0.0, ..Noise::default() };
+            for (s, w) in snapshots.iter().zip(&weights) {
+                let n = &s.noise[i];
+                for c in 0..3 {
+                    mean[c] += w * f64::from(s.mean[i][c]);
+                    variance[c] += (w * f64::from(s.standard_error[i][c])).powi(2);
+                }
+                chroma += w * w * f64::from(n.chroma_variance);
+                third += w.powi(3) * f64::from(n.third_moment);
+                spread += (w * w * f64::from(n.variance_error)).powi(2);
+                noise.samples += n.samples;
+                noise.lookups += n.lookups;
             }
-        });
+            noise.chroma_variance = chroma as f32;
+            noise.third_moment = third as f32;
+            noise.variance_error = spread.sqrt() as f32;
+            (mean.map(|x| x as f32), (variance.map(|v| v.sqrt() as f32), noise))
+        };
+        let (mean, (standard_error, noise)) =
+            (0..count).into_par_iter().with_min_len(4096).map(pixel).unzip();
         Some(Self {
             width: first.width,
             height: first.height,
-            mean: of_pixels(&|s, i, c| Some(s.mean.get(i)?[c]), 1, false),
-            standard_error: Some(of_pixels(&|s, i, c| Some(s.standard_error.get(i)?[c]), 2, true)),
-            noise: Some(noise.collect()),
+            mean,
+            standard_error: Some(standard_error),
+            noise: Some(noise),
             target: Some(first.target.clone()),
             origin: origin.into(),
         })
@@ -129,5 +133,59 @@ impl Reference {
     #[must_use]
     pub fn fits(&self, target: &str) -> bool {
         self.target.as_deref() == Some(target)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::{Film, Images, Tally};
+    use crate::math::Sampler;
+
+    fn noisy(seed: u64, size: usize, spp: u64) -> Snapshot {
+        let mut film = Film::new(size, size);
+        for (i, pixel) in film.pixels.iter_mut().enumerate() {
+            for s in 0..spp {
+                let mut sampler = Sampler::new(seed, i as u64, s);
+                pixel.add(std::array::from_fn(|_| sampler.next_optical_depth()));
+            }
+        }
+        let Images { mean, standard_error, noise } = Images::of(&film);
+        Snapshot {
+            generation: 1,
+            width: size,
+            height: size,
+            mean,
+            standard_error,
+            noise,
+            spp: spp as u32,
+            coarse: None,
+            seconds: 1.0,
+            cpu_seconds: 1.0,
+            tally: Tally::default(),
+            threads: 1,
+            cost_error: 0.0,
+            target: "image".into(),
+        }
+    }
+
+    /// Exponential noise of mean 1: the pool of 30 and 90 samples is as good as 120 of them, and knows it.
+    #[test]
+    fn a_pool_is_as_good_as_its_samples_together() {
+        let size = 40;
+        let (a, b) = (noisy(1, size, 30), noisy(2, size, 90));
+        let pool = Reference::pooled(&[&a, &b], "A, B").unwrap();
+        let n = (size * size * 3) as f64;
+        let actual = pool.mean.iter().flatten().map(|x| f64::from(x - 1.0).powi(2)).sum::<f64>() / n;
+        let stated = pool.standard_error.as_ref().unwrap().iter().flatten();
+        let stated = stated.map(|e| f64::from(*e).powi(2)).sum::<f64>() / n;
+        assert!((actual * 120.0 - 1.0).abs() < 0.1, "{actual}");
+        assert!((stated * 120.0 - 1.0).abs() < 0.1, "{stated}");
+        let third = pool.noise.as_ref().unwrap().iter().map(|n| f64::from(n.third_moment)).sum::<f64>();
+        // Grey of three independent exponentials has μ₃ = 3·2/27.
+        let third = third / (size * size) as f64 * 120.0f64.powi(2);
+        assert!((third / (6.0 / 27.0) - 1.0).abs() < 0.25, "{third}");
+        assert_eq!(Reference::pooled(&[&a, &noisy(3, 8, 30)], ""), None);
+        assert_eq!(Reference::pooled(&[], ""), None);
     }
 }

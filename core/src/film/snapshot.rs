@@ -82,7 +82,7 @@ pub struct Snapshot {
 }
 
 /// A pixel's noise beyond its standard error. Variances are means over the three channels.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
     /// The part of the variance of the mean that is perpendicular to grey.
     pub chroma_variance: f32,

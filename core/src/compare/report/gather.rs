@@ -5,6 +5,7 @@ use crate::compare::maps::{MAPS, Map, Range};
 use crate::compare::{Against, Estimate, Experiment, Reference, Standing, View};
 use crate::measure::{self, MEASURES, Measure};
 use std::borrow::Cow;
+use std::sync::Arc;
 
 /// A comparison with its numbers.
 pub(super) struct Gathered<'a> {
@@ -71,7 +72,7 @@ impl<'a> Shown<'a> {
         });
         // A curve ends with what the table says, however near the last checkpoint is.
         let last = view.checkpoints.kept().last().is_none_or(|c| c.spp < view.snapshot.spp);
-        let last = last.then(|| Checkpoint::of(&view.snapshot));
+        let last = last.then(|| Arc::new(Checkpoint::of(&view.snapshot)));
         // FLIP looks at every pixel's neighbourhood under many exposures: once per view is enough, unless the
         // comparison is about it.
         let chosen = &experiment.doc.compare.measure.0;

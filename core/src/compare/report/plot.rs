@@ -3,22 +3,14 @@
 use super::gather::Gathered;
 use super::words;
 use crate::compare::curve::{Axis, Point, PowerLaw};
+use crate::compare::view_colour;
 use plotters::prelude::*;
 use serde::Serialize;
 
-/// Okabe and Ito's colours (2008) that are told apart by every eye and stand out on white and on black.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-];
-
 /// The colour of a view, by its place.
 fn colour(place: usize) -> RGBColor {
-    COLOURS[place % COLOURS.len()]
+    let [r, g, b] = view_colour(place);
+    RGBColor(r, g, b)
 }
 
 /// The same for style sheets.
