@@ -267,11 +267,16 @@ impl Darkroom {
                         continue;
                     };
                     let s = &view.snapshot;
-                    (Negative::View(Arc::clone(s)), [s.width, s.height], &s.mean, Some(Arc::clone(s)))
+                    (
+                        Negative::View(Arc::clone(s)),
+                        [s.width, s.height],
+                        s.mean.as_slice(),
+                        Some(Arc::clone(s)),
+                    )
                 }
                 Sight::Reference => {
                     let Some(r) = &experiment.reference else { continue };
-                    (Negative::Reference(Arc::clone(r)), [r.width, r.height], &r.mean, None)
+                    (Negative::Reference(Arc::clone(r)), [r.width, r.height], r.mean(), None)
                 }
                 Sight::Difference => continue,
             };

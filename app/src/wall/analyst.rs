@@ -1,7 +1,7 @@
 //! Computes the comparison's numbers on a thread of its own, so that no frame waits for them.
 
 use majorant_core::compare::curve::{Point, PowerLaw};
-use majorant_core::compare::{Agreement, Estimate, Experiment, Reference, Standing, agreement};
+use majorant_core::compare::{Agreement, Estimate, Experiment, Opponent, Reference, Standing, agreement};
 use majorant_core::measure::{self, Measure, Region};
 use majorant_core::scene::Pair;
 use majorant_core::session::{PixelSample, Probe};
@@ -212,13 +212,14 @@ impl Memory {
         let experiment = &question.experiment;
         let compare = &experiment.doc.compare;
         let chosen = measure::find(&compare.measure.0);
+        let opponents = experiment.opponents();
         // The relative error is in every table, whatever the curves show.
         let mut measures: Vec<&'static Measure> = measure::find("relmse").into_iter().collect();
         measures.extend(chosen.filter(|m| m.id != "relmse"));
         Analysis {
-            standings: experiment.rank(measures),
+            standings: experiment.rank_against(measures, &opponents),
             measure: chosen,
-            curves: chosen.map(|m| self.curves(experiment, m)).unwrap_or_default(),
+            curves: chosen.map(|m| self.curves(experiment, m, &opponents)).unwrap_or_default(),
             pair: pair(experiment, compare.pair),
             pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, wanted))),
             seconds: 0.0,
@@ -226,10 +227,15 @@ impl Memory {
     }
 
     /// Points that stay are not measured again: against a reference that stands, only new checkpoints are.
-    fn curves(&mut self, experiment: &Experiment, chosen: &'static Measure) -> Vec<Curve> {
+    fn curves(
+        &mut self,
+        experiment: &Experiment,
+        chosen: &'static Measure,
+        opponents: &[Opponent<'_>],
+    ) -> Vec<Curve> {
         let mut curves = Vec::new();
-        for (number, view) in &experiment.views {
-            let (_, Some(held)) = experiment.held_against(*number) else { continue };
+        for ((number, view), (_, held)) in experiment.views.iter().zip(opponents) {
+            let Some(held) = held else { continue };
             let key = CurveKey {
                 generation: view.checkpoints.generation(),
                 measure: chosen.id,
@@ -239,7 +245,7 @@ impl Memory {
             let known = self.curves.remove(number).filter(|(k, _)| k.fits(&key));
             let mut points = known.map(|(_, points)| points).unwrap_or_default();
             for checkpoint in view.checkpoints.kept().iter().skip(points.len()) {
-                points.extend(checkpoint.point(chosen, &held, experiment.region()));
+                points.extend(checkpoint.point(chosen, held, experiment.region()));
             }
             self.curves.insert(*number, (key, points.clone()));
             curves.push(Curve { view: *number, points });

@@ -77,7 +77,7 @@ impl Checkpoint {
         let picture = Picture { width: self.width, height: self.height, pixels: &self.mean };
         let held = measure::Reference {
             picture: reference.estimate().picture,
-            standard_error: reference.standard_error.as_deref(),
+            standard_error: reference.standard_error(),
         };
         let region = region.unwrap_or(Region::whole(self.width, self.height));
         let measured = (measure.measure)(&picture, &held, region).ok()?;

@@ -1,7 +1,7 @@
 //! A comparison with everything that came of it so far: what rankings, maps and reports are made from.
 
 use super::curve::{Checkpoints, Point};
-use super::ranking::{self, Against, Contender, Question, Standing};
+use super::ranking::{self, Against, Contender, Opponent, Question, Standing};
 use super::reference::Reference;
 use crate::film::Snapshot;
 use crate::measure::{Measure, Region};
@@ -91,7 +91,19 @@ impl Experiment {
     /// The table.
     #[must_use]
     pub fn rank(&self, measures: Vec<&'static Measure>) -> Vec<Standing> {
-        ranking::rank(&self.contenders(), &self.question(measures))
+        self.rank_against(measures, &self.opponents())
+    }
+
+    /// The table, with what [`Self::opponents`] has found: pooled pictures are dear.
+    #[must_use]
+    pub fn rank_against(&self, measures: Vec<&'static Measure>, opponents: &[Opponent<'_>]) -> Vec<Standing> {
+        ranking::rank(&self.contenders(), &self.question(measures), opponents)
+    }
+
+    /// What every view is held against, in the order of `views`.
+    #[must_use]
+    pub fn opponents(&self) -> Vec<Opponent<'_>> {
+        ranking::opponents(&self.contenders(), &self.question(Vec::new()))
     }
 
     /// What a view is held against, by its number: the reference, or the mean of the other unbiased views.

@@ -24,6 +24,6 @@ pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
 pub use estimate::{Estimate, RegionNoise};
 pub use experiment::{Experiment, View, label, view_colour};
 pub use open::{ReferenceError, open};
-pub use ranking::{Against, Contender, Question, Standing, rank};
+pub use ranking::{Against, Contender, Opponent, Question, Standing, opponents, rank};
 pub use reference::Reference;
 pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, run};

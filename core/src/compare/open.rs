@@ -195,7 +195,7 @@ mod tests {
         exr::prelude::write_rgb_file(&path, 24, 16, |_, _| (0.5f32, 0.5f32, 0.5f32)).unwrap();
         let (reference, notes) = opened(&path.display().to_string(), &fixture::doc("theirs"));
         let reference = reference.unwrap();
-        assert!(reference.target.is_some() && reference.standard_error.is_none());
+        assert!(reference.target.is_some() && reference.standard_error().is_none());
         assert!(notes.len() == 1 && notes[0].contains("on trust"), "{notes:?}");
     }
 }

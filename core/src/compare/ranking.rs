@@ -7,6 +7,7 @@ use crate::estimator;
 use crate::film::Snapshot;
 use crate::measure::{self, Measure, Measured, Region};
 use crate::scene::SceneDoc;
+use std::borrow::Cow;
 
 /// A view as it competes.
 #[derive(Clone, Copy, Debug)]
@@ -128,11 +129,26 @@ impl Standing {
 /// Two-sided 95 % of a normal distribution.
 const INTERVAL: f64 = 1.959_964;
 
-/// Ranks the views. A view without three samples per pixel has no numbers yet and is left out.
+/// What a view is held against, with the picture.
+pub type Opponent<'a> = (Against, Option<Cow<'a, Reference>>);
+
+/// What every view is held against.
 #[must_use]
-pub fn rank(contenders: &[Contender<'_>], question: &Question<'_>) -> Vec<Standing> {
+pub fn opponents<'a>(contenders: &[Contender<'_>], question: &Question<'a>) -> Vec<Opponent<'a>> {
+    (0..contenders.len()).map(|i| opponent(contenders, i, question)).collect()
+}
+
+/// Ranks the views by what each is held against. A view without three samples per pixel has no numbers yet and
+/// is left out.
+#[must_use]
+pub fn rank(
+    contenders: &[Contender<'_>],
+    question: &Question<'_>,
+    opponents: &[Opponent<'_>],
+) -> Vec<Standing> {
     let baseline = contenders.get(question.baseline).and_then(|b| efficiency(b, question.region));
-    (0..contenders.len()).filter_map(|i| standing(contenders, i, question, baseline)).collect()
+    let views = contenders.iter().zip(opponents).enumerate();
+    views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline)).collect()
 }
 
 /// The region of a question in a picture.
@@ -156,12 +172,12 @@ fn efficiency(view: &Contender<'_>, region: Option<Region>) -> Option<Efficiency
 }
 
 fn standing(
-    contenders: &[Contender<'_>],
+    view: &Contender<'_>,
     index: usize,
+    (against, held): &Opponent<'_>,
     question: &Question<'_>,
     baseline: Option<Efficiency>,
 ) -> Option<Standing> {
-    let view = contenders.get(index)?;
     let snapshot = view.snapshot;
     let estimate = Estimate::of(snapshot)?;
     let region = region_of(question.region, snapshot);
@@ -177,7 +193,6 @@ fn standing(
         }
         None => (f64::NAN, [f64::NAN; 2]),
     };
-    let (against, held) = opponent(contenders, index, question);
     let agreement = held.as_ref().and_then(|r| agreement(&estimate, &r.estimate(), region));
     let errors = held.as_ref().map(|r| errors(&estimate, r, region, &question.measures)).unwrap_or_default();
     let pixels = ((region.x1 - region.x0) * (region.y1 - region.y0)) as u64;
@@ -197,7 +212,7 @@ fn standing(
         efficiency: mine.value,
         speedup,
         speedup_interval,
-        against,
+        against: against.clone(),
         agreement,
         declared_bias: view.declared_bias(),
         pixels,
@@ -213,7 +228,7 @@ fn errors(
 ) -> Vec<(&'static Measure, Measured)> {
     let held = measure::Reference {
         picture: reference.estimate().picture,
-        standard_error: reference.standard_error.as_deref(),
+        standard_error: reference.standard_error(),
     };
     let measured = measures.iter().map(|m| (*m, (m.measure)(&estimate.picture, &held, region)));
     measured.filter_map(|(m, result)| Some((m, result.ok()?))).collect()
@@ -224,8 +239,7 @@ pub(super) fn opponent<'a>(
     contenders: &[Contender<'_>],
     index: usize,
     question: &Question<'a>,
-) -> (Against, Option<std::borrow::Cow<'a, Reference>>) {
-    use std::borrow::Cow;
+) -> Opponent<'a> {
     let Some(view) = contenders.get(index) else { return (Against::Nothing("there is no such view"), None) };
     if question.reference_view == Some(index) {
         return (Against::Nothing("it is the reference"), None);

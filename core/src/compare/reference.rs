@@ -6,20 +6,16 @@ use crate::io::picture::{self, PictureError};
 use crate::measure::{Picture, Region};
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A picture that others are held against, with its own noise and the image that it belongs to.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Reference {
     /// Columns.
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Mean linear sRGB.
-    pub mean: Vec<[f32; 3]>,
-    /// Its standard error; absent: taken as exact.
-    pub standard_error: Option<Vec<[f32; 3]>>,
-    /// What else is known of its noise.
-    pub noise: Option<Vec<Noise>>,
+    picture: Source,
     /// Names the image that it estimates ([`crate::io::Library::fingerprint`]); absent if nobody knows, as for
     /// a picture by another renderer.
     pub target: Option<String>,
@@ -27,18 +23,51 @@ pub struct Reference {
     pub origin: String,
 }
 
+/// Whose pixels they are: a view's are shared, not copied.
+#[derive(Clone, Debug)]
+enum Source {
+    View(Arc<Snapshot>),
+    Own { mean: Vec<[f32; 3]>, standard_error: Option<Vec<[f32; 3]>>, noise: Option<Vec<Noise>> },
+}
+
 impl Reference {
     /// The picture of a view.
     #[must_use]
-    pub fn of(snapshot: &Snapshot, origin: impl Into<String>) -> Self {
+    pub fn of(snapshot: &Arc<Snapshot>, origin: impl Into<String>) -> Self {
         Self {
             width: snapshot.width,
             height: snapshot.height,
-            mean: snapshot.mean.clone(),
-            standard_error: Some(snapshot.standard_error.clone()),
-            noise: (snapshot.noise.len() == snapshot.mean.len()).then(|| snapshot.noise.clone()),
             target: (!snapshot.target.is_empty()).then(|| snapshot.target.clone()),
+            picture: Source::View(Arc::clone(snapshot)),
             origin: origin.into(),
+        }
+    }
+
+    /// Mean linear sRGB, row by row from the top.
+    #[must_use]
+    pub fn mean(&self) -> &[[f32; 3]] {
+        match &self.picture {
+            Source::View(snapshot) => &snapshot.mean,
+            Source::Own { mean, .. } => mean,
+        }
+    }
+
+    /// Its standard error; absent: taken as exact.
+    #[must_use]
+    pub fn standard_error(&self) -> Option<&[[f32; 3]]> {
+        match &self.picture {
+            Source::View(snapshot) => Some(&snapshot.standard_error),
+            Source::Own { standard_error, .. } => standard_error.as_deref(),
+        }
+    }
+
+    /// What else is known of its noise.
+    fn noise(&self) -> Option<&[Noise]> {
+        match &self.picture {
+            Source::View(snapshot) => {
+                Some(snapshot.noise.as_slice()).filter(|n| n.len() == snapshot.mean.len())
+            }
+            Source::Own { noise, .. } => noise.as_deref(),
         }
     }
 
@@ -54,9 +83,11 @@ impl Reference {
         Ok(Self {
             width: read.picture.width,
             height: read.picture.height,
-            mean: read.picture.pixels,
-            standard_error: read.standard_error,
-            noise: None,
+            picture: Source::Own {
+                mean: read.picture.pixels,
+                standard_error: read.standard_error,
+                noise: None,
+            },
             target: target.map(str::to_owned),
             origin: name.into_owned(),
         })
@@ -111,9 +142,7 @@ impl Reference {
         Some(Self {
             width: first.width,
             height: first.height,
-            mean,
-            standard_error: Some(standard_error),
-            noise: Some(noise),
+            picture: Source::Own { mean, standard_error: Some(standard_error), noise: Some(noise) },
             target: Some(first.target.clone()),
             origin: origin.into(),
         })
@@ -123,9 +152,9 @@ impl Reference {
     #[must_use]
     pub fn estimate(&self) -> Estimate<'_> {
         Estimate {
-            picture: Picture { width: self.width, height: self.height, pixels: &self.mean },
-            standard_error: self.standard_error.as_deref(),
-            noise: self.noise.as_deref(),
+            picture: Picture { width: self.width, height: self.height, pixels: self.mean() },
+            standard_error: self.standard_error(),
+            noise: self.noise(),
         }
     }
 
@@ -176,16 +205,16 @@ mod tests {
         let (a, b) = (noisy(1, size, 30), noisy(2, size, 90));
         let pool = Reference::pooled(&[&a, &b], "A, B").unwrap();
         let n = (size * size * 3) as f64;
-        let actual = pool.mean.iter().flatten().map(|x| f64::from(x - 1.0).powi(2)).sum::<f64>() / n;
-        let stated = pool.standard_error.as_ref().unwrap().iter().flatten();
+        let actual = pool.mean().iter().flatten().map(|x| f64::from(x - 1.0).powi(2)).sum::<f64>() / n;
+        let stated = pool.standard_error().unwrap().iter().flatten();
         let stated = stated.map(|e| f64::from(*e).powi(2)).sum::<f64>() / n;
         assert!((actual * 120.0 - 1.0).abs() < 0.1, "{actual}");
         assert!((stated * 120.0 - 1.0).abs() < 0.1, "{stated}");
-        let third = pool.noise.as_ref().unwrap().iter().map(|n| f64::from(n.third_moment)).sum::<f64>();
+        let third = pool.noise().unwrap().iter().map(|n| f64::from(n.third_moment)).sum::<f64>();
         // Grey of three independent exponentials has μ₃ = 3·2/27.
         let third = third / (size * size) as f64 * 120.0f64.powi(2);
         assert!((third / (6.0 / 27.0) - 1.0).abs() < 0.25, "{third}");
-        assert_eq!(Reference::pooled(&[&a, &noisy(3, 8, 30)], ""), None);
-        assert_eq!(Reference::pooled(&[], ""), None);
+        assert!(Reference::pooled(&[&a, &noisy(3, 8, 30)], "").is_none());
+        assert!(Reference::pooled(&[], "").is_none());
     }
 }

@@ -270,7 +270,7 @@ mod tests {
         });
         let experiment = finished.unwrap().experiment;
         assert_eq!(last, 1.0);
-        assert_eq!(experiment.reference.as_ref().unwrap().noise.as_ref().unwrap()[0].samples, 64);
+        assert_eq!(experiment.reference.as_ref().unwrap().estimate().noise.unwrap()[0].samples, 64);
         for (_, view) in &experiment.views {
             assert_eq!(view.snapshot.spp, 8);
             let spp: Vec<u32> = view.checkpoints.kept().iter().map(|c| c.spp).collect();

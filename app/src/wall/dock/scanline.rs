@@ -44,7 +44,7 @@ fn rows(cx: &Cx<'_>) -> Vec<Row> {
     }
     if cx.wall.sights().contains(&Sight::Reference)
         && let Some(reference) = &experiment.reference
-        && let Some(grey) = line(&reference.mean, reference.width)
+        && let Some(grey) = line(reference.mean(), reference.width)
     {
         rows.push(Row { name: "reference".into(), view: None, grey, error: Vec::new() });
     }

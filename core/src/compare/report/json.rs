@@ -33,7 +33,7 @@ pub(super) fn document(gathered: &Gathered<'_>, what: &Formats) -> Result<String
         "region": experiment.doc.compare.region,
         "held_against": gathered.held_against(),
         "reference": reference.map(|r| json!({
-            "origin": r.origin, "target": r.target, "has_noise": r.standard_error.is_some(),
+            "origin": r.origin, "target": r.target, "has_noise": r.standard_error().is_some(),
         })),
         "views": views,
         "maps": maps.collect::<Vec<_>>(),

@@ -38,8 +38,8 @@ fn view(shown: &Shown<'_>) -> Layer<AnyChannels<FlatSamples>> {
 
 fn reference(reference: &Reference) -> Layer<AnyChannels<FlatSamples>> {
     let mut channels = Channels::new();
-    colour(&mut channels, "", &reference.mean);
-    if let Some(errors) = &reference.standard_error {
+    colour(&mut channels, "", reference.mean());
+    if let Some(errors) = reference.standard_error() {
         colour(&mut channels, "stderr.", errors);
     }
     let about = json!({

@@ -49,7 +49,7 @@ pub(super) fn picture(view: &Shown<'_>) -> Result<Vec<u8>, String> {
 /// The reference as the scene is shown, if there is one.
 pub(super) fn reference(gathered: &Gathered<'_>) -> Option<Result<Vec<u8>, String>> {
     let reference = gathered.reference()?;
-    Some(shown(&reference.mean, (reference.width, reference.height), &gathered.experiment.doc.view))
+    Some(shown(reference.mean(), (reference.width, reference.height), &gathered.experiment.doc.view))
 }
 
 /// A map of a view in its colours, if the view has it.
