@@ -1,9 +1,9 @@
 //! Monte Carlo light transport in participating media, on the null-scattering path integral.
 //!
 //! ```text
-//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session
-//!                                                          ▲
-//!                                         io (scenes, volumes, pictures, results)
+//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare
+//!                                                          ▲                                             ▲
+//!                                         io (scenes, volumes, pictures, results)          measure (errors)
 //!   film ─► measure (errors of a picture against a reference)
 //! ```
 //!

@@ -18,7 +18,8 @@ impl Wall {
     /// Draws the bar.
     pub fn bar_ui(&mut self, ui: &mut Ui, doc: &SceneDoc, dock: bool, commands: &mut Vec<Command>) {
         let several = doc.view_count() > 1;
-        ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
+        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+        ui.spacing_mut().button_padding.x = 6.0;
         ui.horizontal_wrapped(|ui| {
             group(ui, |ui| {
                 for count in COUNTS {
@@ -101,7 +102,7 @@ impl Wall {
 fn group(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
-        ui.spacing_mut().button_padding.x = 7.0;
+        ui.spacing_mut().button_padding.x = 6.0;
         add(ui);
     });
 }
@@ -155,7 +156,7 @@ fn layer_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, commands: &mut Vec<Command
     let current = doc.compare.layer.0.as_str();
     let name = wall.map().map_or("Picture", |map| map.name);
     let combo =
-        ComboBox::from_id_salt("layer").height(360.0).width(84.0).selected_text(RichText::new(name).small());
+        ComboBox::from_id_salt("layer").height(360.0).width(74.0).selected_text(RichText::new(name).small());
     let response = combo.show_ui(ui, |ui| {
         let mut item = |ui: &mut Ui, id: &str, name: &str, tip: &str| {
             if ui.selectable_label(current == id, name).on_hover_text(tip).clicked() {
@@ -184,7 +185,7 @@ fn fairness_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
         (Fairness::Lookups, "Equal look-ups", "Every view gets the same number of evaluations of the medium"),
     ];
     let current = options.iter().find(|(f, ..)| *f == doc.compare.fairness).map_or("", |(_, name, _)| name);
-    let combo = ComboBox::from_id_salt("fairness").width(94.0).selected_text(RichText::new(current).small());
+    let combo = ComboBox::from_id_salt("fairness").width(86.0).selected_text(RichText::new(current).small());
     let response = combo.show_ui(ui, |ui| {
         for (fairness, name, tip) in options {
             if ui.selectable_label(doc.compare.fairness == fairness, name).on_hover_text(tip).clicked() {

@@ -64,6 +64,9 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
     }
     let Some(found) = &standing.agreement else { return ("–".into(), palette.weak) };
     match found.verdict {
+        Verdict::Agrees if found.p < SUSPECT => {
+            (format!("agrees so far ({})", probability(found.p)), palette.warning)
+        }
         Verdict::Agrees => (format!("agrees ({})", probability(found.p)), palette.good),
         Verdict::Undecided => ("too noisy to tell".into(), palette.weak),
         Verdict::Differs => {
@@ -78,6 +81,9 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
         }
     }
 }
+
+/// Below this probability an agreement is worth waiting for.
+const SUSPECT: f64 = 1e-3;
 
 /// Draws the strip; edits go to the commands.
 pub(super) fn caption_ui(
@@ -129,7 +135,7 @@ pub(super) fn caption_ui(
 }
 
 /// The estimator of a view, and what else sets it apart from the scene.
-pub(super) fn name(doc: &SceneDoc, view: usize) -> String {
+pub fn name(doc: &SceneDoc, view: usize) -> String {
     let Some(own) = doc.contender(view) else { return String::new() };
     let mut name =
         estimator::find(&own.estimator.id).map_or(own.estimator.id.as_str(), |e| e.name).to_owned();

@@ -78,9 +78,9 @@ fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
 fn bias(mut doc: SceneDoc) -> SceneDoc {
     doc.render.spp = None;
     let base = doc.contender(0).unwrap_or_default();
-    for when_exceeded in [WhenExceeded::Weighted, WhenExceeded::Clamp] {
+    for (when_exceeded, factor) in [(WhenExceeded::Weighted, 0.97), (WhenExceeded::Clamp, 0.9)] {
         let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
-        view.majorant.factor = 0.95;
+        view.majorant.factor = factor;
         view.majorant.when_exceeded = when_exceeded;
         doc.compare.views.push(view);
     }

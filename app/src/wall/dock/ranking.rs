@@ -21,7 +21,7 @@ const NARROW: f32 = 760.0;
 /// Columns of numbers, what they are, and whether they stay in a narrow table.
 const HEADINGS: &[(&str, &str, bool)] = &[
     ("spp", "Samples per pixel", true),
-    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", true),
+    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", false),
     ("look-ups", "Evaluations of the medium per path", false),
     ("", "", true),
     ("variance", "Variance of a pixel's mean, over pixels and channels", true),
@@ -85,7 +85,7 @@ impl Tab for Ranking {
                 .striped(true)
                 .cell_layout(Layout::right_to_left(Align::Center))
                 .column(Column::exact(28.0))
-                .column(Column::auto().at_least(104.0))
+                .column(Column::auto().at_least(if wide { 170.0 } else { 104.0 }))
                 .columns(Column::auto().at_least(44.0), columns - 1)
                 .column(Column::auto().at_least(96.0))
                 .column(Column::remainder().at_least(150.0));
@@ -163,7 +163,7 @@ fn line(
     row.col(|ui| {
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let palette = Palette::get(ui);
-            let text = RichText::new(&s.name).small().color(palette.strong);
+            let text = RichText::new(crate::wall::caption::name(cx.doc, view)).small().color(palette.strong);
             ui.add(egui::Label::new(text).truncate().selectable(false));
             if wins {
                 ui.label(RichText::new("best").small().color(palette.good))
