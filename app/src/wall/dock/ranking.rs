@@ -92,7 +92,7 @@ impl Tab for Ranking {
             table
                 .header(row_height, |mut header| {
                     heading(&mut header, "", "");
-                    heading(&mut header, "estimator", "");
+                    left_heading(&mut header, "estimator", "");
                     for (text, tip, _) in HEADINGS.iter().filter(|h| wide || h.2) {
                         let (text, tip) = match measure.filter(|_| text.is_empty()) {
                             Some(m) => (m.name, m.formula),
@@ -100,7 +100,7 @@ impl Tab for Ranking {
                         };
                         heading(&mut header, text, tip);
                     }
-                    heading(
+                    left_heading(
                         &mut header,
                         "bias",
                         "What holding it against the reference, or the other unbiased views, has found",
@@ -119,12 +119,21 @@ impl Tab for Ranking {
 }
 
 fn heading(row: &mut egui_extras::TableRow<'_, '_>, text: &str, tip: &str) {
+    row.col(|ui| heading_ui(ui, text, tip));
+}
+
+/// A heading over words, which start at the left.
+fn left_heading(row: &mut egui_extras::TableRow<'_, '_>, text: &str, tip: &str) {
     row.col(|ui| {
-        let response = ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
-        if !tip.is_empty() {
-            response.on_hover_text(tip);
-        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| heading_ui(ui, text, tip));
     });
+}
+
+fn heading_ui(ui: &mut Ui, text: &str, tip: &str) {
+    let response = ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
+    if !tip.is_empty() {
+        response.on_hover_text(tip);
+    }
 }
 
 fn line(
