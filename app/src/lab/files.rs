@@ -6,6 +6,7 @@ use crate::model::Source;
 use crate::model::own_volume::{Look, with_volume};
 use crate::wall::WallEdit;
 use crate::widgets::format_number;
+use majorant_core::compare;
 use majorant_core::io::picture;
 use majorant_core::io::volume::EXTENSIONS;
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, ReferenceDoc};
@@ -139,6 +140,17 @@ impl LabApp {
         self.apply(Command::Wall(WallEdit::Reference(reference)));
         let text = format!("{} is the reference: errors are measured against it.", path.display());
         self.messages.say(Severity::Done, text);
+        let seed = compare::seed_of(path);
+        let sharing = (0..self.doc().view_count())
+            .find(|view| seed.is_some() && self.doc().contender(*view).map(|c| c.seed) == seed);
+        if let Some(view) = sharing {
+            self.messages.fail(format!(
+                "{} was rendered with the random numbers of view {}: what they share looks like agreement. Give \
+                 the view another seed (Render, Limits, threads, seed).",
+                path.display(),
+                compare::label(view)
+            ));
+        }
     }
 
     /// A panorama becomes the environment map, in place of the one that is there.

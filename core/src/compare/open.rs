@@ -75,7 +75,7 @@ pub fn open(
         Some(_) => {}
     }
     reference.target = Some(target);
-    let seed = metadata(&path).and_then(|m| m["seed"].as_u64());
+    let seed = seed_of(&path);
     let shared: Vec<String> = (0..doc.view_count())
         .filter(|view| seed.is_some() && doc.contender(*view).map(|c| c.seed) == seed)
         .map(label)
@@ -88,6 +88,13 @@ pub fn open(
         ));
     }
     Ok(reference)
+}
+
+/// The random numbers that a picture was rendered with, if it says so: views that have the same look better
+/// than they are.
+#[must_use]
+pub fn seed_of(picture: &Path) -> Option<u64> {
+    metadata(picture)?["seed"].as_u64()
 }
 
 /// What the program that wrote a picture says about it.

@@ -2,10 +2,10 @@
 
 use super::Arguments;
 use crate::cli::{Failure, options};
-use majorant_core::compare::{Experiment, label, report::words};
+use majorant_core::compare::{self, Experiment, label, report::words};
 use majorant_core::estimator::{self, REGISTRY};
 use majorant_core::io::scene_file;
-use majorant_core::scene::{Fairness, Limits, MeasureId, ReferenceDoc, SceneDoc};
+use majorant_core::scene::{Fairness, Limits, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc};
 
 /// A positive number of seconds.
 pub(super) fn parse_seconds(text: &str) -> Result<f32, String> {
@@ -27,6 +27,9 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
     let mut doc = scene_file::override_keys(scene, &assignments)?;
     let limits = Limits { spp: arguments.spp, cpu_seconds: arguments.seconds, ..Limits::default() };
     doc.render.set_limits(limits);
+    if arguments.seed.is_none() {
+        keep_off(&mut doc, arguments.reference.as_deref().and_then(compare::seed_of));
+    }
     if !arguments.estimators.is_empty() {
         line_up(&mut doc, arguments.estimators.iter().map(String::as_str));
     } else if doc.compare.views.is_empty() {
@@ -63,6 +66,14 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
         doc.compare.baseline = baseline(&doc, wanted)?;
     }
     Ok(doc)
+}
+
+/// Unless they were asked for, views do not take the random numbers of the reference.
+fn keep_off(doc: &mut SceneDoc, reference: Option<u64>) {
+    let Some(taken) = reference else { return };
+    if (doc.render.seed..=doc.render.seed.saturating_add(MAX_VIEWS as u64)).contains(&taken) {
+        doc.render.seed = taken.checked_add(1).filter(|seed| i64::try_from(*seed).is_ok()).unwrap_or(0);
+    }
 }
 
 /// Makes these estimators the views, with the scene's other settings and a seed each.
@@ -137,6 +148,17 @@ mod tests {
         doc.render.seed = i64::MAX as u64;
         line_up(&mut doc, ["nee", "nee"].into_iter());
         assert_eq!(ids(&doc)[1].1, 0);
+    }
+
+    #[test]
+    fn views_do_not_share_the_references_random_numbers() {
+        let mut doc = SceneDoc::default();
+        keep_off(&mut doc, Some(2));
+        assert_eq!(doc.render.seed, 3);
+        keep_off(&mut doc, Some(2));
+        assert_eq!(doc.render.seed, 3, "far enough already");
+        keep_off(&mut doc, None);
+        assert_eq!(doc.render.seed, 3);
     }
 
     #[test]
