@@ -23,7 +23,7 @@ mod run;
 pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
 pub use estimate::{Estimate, RegionNoise};
 pub use experiment::{Experiment, View, label, view_colour};
-pub use open::{seed_of, ReferenceError, open};
+pub use open::{ReferenceError, open, seed_of};
 pub use ranking::{Against, Contender, Opponent, Question, Standing, opponents, rank};
 pub use reference::Reference;
 pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, run};

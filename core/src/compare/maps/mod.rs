@@ -1,11 +1,11 @@
-//! Maps: one number per pixel of a view, with the range and colours that it is shown in.
-//!
-//! Colours are perceptually uniform and safe for colour-blind eyes: Viridis for amounts, red to blue around
-//! white for differences (red: too bright).
+//! Maps: one number per pixel of a view.
+
+mod range;
+
+pub use range::{Range, Scale};
 
 use super::estimate::Estimate;
 use crate::measure::Region;
-use colorous::Gradient;
 use rayon::prelude::*;
 
 /// A kind of map.
@@ -24,19 +24,6 @@ pub struct Map {
     /// Edge of the blocks of pixels that are averaged first; 1 for single pixels.
     pub block: usize,
     value: fn(&Pixel) -> f32,
-}
-
-/// How values become colours.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scale {
-    /// From 0.
-    Linear,
-    /// By decades.
-    Logarithmic,
-    /// Around 0, to both sides alike.
-    Diverging,
-    /// Around 0, from −`.0` to `.0` whatever the values are.
-    Fixed(f32),
 }
 
 /// One pixel of a view, and of what it is held against.
@@ -261,84 +248,6 @@ fn pixel(view: &Estimate<'_>, reference: Option<&Estimate<'_>>, i: usize) -> Pix
     }
 }
 
-/// The values that the ends of a map's colours stand for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// The lowest.
-    pub lo: f32,
-    /// The highest.
-    pub hi: f32,
-    /// How values between them become colours.
-    pub scale: Scale,
-}
-
-/// A few pixels may leave the range; they show as its ends.
-const INSIDE: f64 = 0.98;
-/// A range by decades holds at most so many.
-const DECADES: i32 = 4;
-
-impl Range {
-    /// A range that suits the values of several views at once, so that their colours can be compared.
-    #[must_use]
-    pub fn of<'a>(scale: Scale, values: impl Iterator<Item = &'a [f32]>) -> Self {
-        if let Scale::Fixed(end) = scale {
-            return Self { lo: -end, hi: end, scale };
-        }
-        let mut sizes: Vec<f32> =
-            values.flatten().map(|v| v.abs()).filter(|v| v.is_finite() && *v > 0.0).collect();
-        if sizes.is_empty() {
-            return Self { lo: 0.0, hi: 1.0, scale: Scale::Linear };
-        }
-        let at = (((sizes.len() - 1) as f64) * INSIDE) as usize;
-        let (_, hi, _) = sizes.select_nth_unstable_by(at, f32::total_cmp);
-        let hi = *hi;
-        match scale {
-            Scale::Logarithmic => Self { lo: hi / 10f32.powi(DECADES), hi, scale },
-            Scale::Diverging => Self { lo: -hi, hi, scale },
-            _ => Self { lo: 0.0, hi, scale },
-        }
-    }
-
-    /// Where a value lies in the range, from 0 to 1; what is not a number lies nowhere.
-    #[must_use]
-    pub fn position(&self, value: f32) -> Option<f32> {
-        let share = match self.scale {
-            Scale::Logarithmic if value <= 0.0 => 0.0,
-            Scale::Logarithmic => (value / self.lo).ln() / (self.hi / self.lo).ln(),
-            _ => (value - self.lo) / (self.hi - self.lo),
-        };
-        (!share.is_nan()).then(|| share.clamp(0.0, 1.0))
-    }
-
-    /// The value at a position from 0 to 1.
-    #[must_use]
-    pub fn value(&self, position: f32) -> f32 {
-        match self.scale {
-            Scale::Logarithmic => self.lo * (self.hi / self.lo).powf(position),
-            _ => self.lo + (self.hi - self.lo) * position,
-        }
-    }
-
-    /// The colour at a position from 0 to 1.
-    #[must_use]
-    pub fn colour(&self, position: f32) -> [u8; 3] {
-        let position = f64::from(position);
-        let (gradient, at): (Gradient, f64) = match self.scale {
-            // Red above, blue below.
-            Scale::Diverging | Scale::Fixed(_) => (colorous::RED_BLUE, 1.0 - position),
-            Scale::Linear | Scale::Logarithmic => (colorous::VIRIDIS, position),
-        };
-        let colour = gradient.eval_continuous(at);
-        [colour.r, colour.g, colour.b]
-    }
-
-    /// The colour of a value; what is not a number shows magenta, which is in neither scale.
-    #[must_use]
-    pub fn paint(&self, value: f32) -> [u8; 3] {
-        self.position(value).map_or([255, 0, 255], |position| self.colour(position))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -397,26 +306,5 @@ mod tests {
         let values = find("z-blocks").unwrap().values(&view, Some(&reference));
         // 8 × 8 pixels, and 2 × 2 in the corner.
         assert!((values[0] - 0.2 * 8.0).abs() < 1e-3 && (values[99] - 0.2 * 2.0).abs() < 1e-3, "{values:?}");
-    }
-
-    #[test]
-    fn ranges_hold_most_values_and_colours_run_through_them() {
-        let values: Vec<f32> = (1..=1000).map(|i| i as f32).chain([1e9, f32::NAN]).collect();
-        let range = Range::of(Scale::Linear, [values.as_slice()].into_iter());
-        assert!((970.0..=1000.0).contains(&range.hi) && range.lo == 0.0, "{range:?}");
-        let range = Range::of(Scale::Logarithmic, [values.as_slice()].into_iter());
-        for position in [0.0, 0.3, 1.0] {
-            assert!((range.position(range.value(position)).unwrap() - position).abs() < 1e-5);
-        }
-        let range = Range::of(Scale::Fixed(4.0), std::iter::empty());
-        assert_eq!(range.position(0.0), Some(0.5));
-        let (red, blue) = (range.paint(4.0), range.paint(-4.0));
-        assert!(red[0] > red[2] && blue[2] > blue[0]);
-        assert_eq!(range.paint(f32::NAN), [255, 0, 255]);
-        // Nothing to show at all.
-        assert_eq!(
-            Range::of(Scale::Diverging, std::iter::empty()).paint(0.0),
-            Range::of(Scale::Linear, std::iter::empty()).paint(0.0)
-        );
     }
 }
