@@ -161,9 +161,9 @@ fn keep_in_range(doc: &mut SceneDoc) {
     }
     let Pair(a, b) = compare.pair;
     if a >= count || b >= count || a == b {
-        compare.pair = Pair(0, usize::from(count > 1));
+        compare.pair = Pair::default();
     }
-    if count == 1 && compare.arrangement != Arrangement::Flip {
+    if count == 1 {
         compare.arrangement = Arrangement::Grid;
     }
 }
