@@ -42,7 +42,7 @@ pub struct Hung {
     pub map: Option<Arc<MapPrint>>,
 }
 
-/// See the [module](self).
+/// The views, the pictures of them that hang, and the numbers about them.
 pub struct Wall {
     slots: Vec<Slot>,
     next_id: u32,

@@ -16,6 +16,8 @@ mod experiment;
 pub mod maps;
 mod open;
 mod ranking;
+#[cfg(test)]
+mod ranking_tests;
 mod reference;
 pub mod report;
 mod run;

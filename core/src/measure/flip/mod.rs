@@ -1,15 +1,15 @@
 //! FLIP: the difference that a person sees who alternates between the pictures.
 //!
 //! LDR-FLIP (P. Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020) blurs both
-//! as the eye's contrast sensitivity does ([`csf`]), takes a colour difference ΔE_c ([`colour`]), sharpens it
-//! where edges or points differ by ΔE_f ([`feature`]):
+//! as the eye's contrast sensitivity does (`csf.rs`), takes a colour difference ΔE_c (`colour.rs`), sharpens it
+//! where edges or points differ by ΔE_f (`feature.rs`):
 //!
 //! ```text
 //!   ΔE = ΔE_c^(1 − ΔE_f),  between 0 and 1
 //! ```
 //!
 //! HDR-FLIP (P. Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images", EG 2021) is the
-//! largest of it over a range of exposures ([`exposure`]) under a tone curve. Numbers agree with version 1.7
+//! largest of it over a range of exposures (`exposure.rs`) under a tone curve. Numbers agree with version 1.7
 //! of the authors' evaluator at its defaults: the constants, separated filters and rounding of radii are its.
 
 mod colour;

@@ -1,0 +1,149 @@
+//! Tests of the ranking on pictures whose noise is known.
+
+use super::{Against, Contender, Question, Reference, Standing, Verdict, opponents, rank};
+use crate::film::{Film, Images, Snapshot, Tally};
+use crate::math::Sampler;
+use crate::measure;
+use crate::scene::{SceneDoc, WhenExceeded};
+use std::sync::Arc;
+
+const SIZE: usize = 24;
+const SPP: u64 = 24;
+
+/// Exponential samples of mean 1 + `bias`, averaged `quiet` at a time: the variance of one is 1/quiet.
+fn picture(seed: u64, quiet: u64, bias: f32) -> Snapshot {
+    let mut film = Film::new(SIZE, SIZE);
+    for (i, pixel) in film.pixels.iter_mut().enumerate() {
+        for s in 0..SPP {
+            let mut sampler = Sampler::new(seed, i as u64, s);
+            let mut mean = || (0..quiet).map(|_| sampler.next_optical_depth()).sum::<f32>() / quiet as f32;
+            pixel.add(std::array::from_fn(|_| mean() * (1.0 + bias)));
+        }
+    }
+    let Images { mean, standard_error, noise } = Images::of(&film);
+    Snapshot {
+        generation: seed,
+        width: SIZE,
+        height: SIZE,
+        mean,
+        standard_error,
+        noise,
+        spp: SPP as u32,
+        coarse: None,
+        seconds: 1.0,
+        cpu_seconds: 2.0,
+        tally: Tally { paths: 100, lookups: 700, ..Tally::default() },
+        threads: 2,
+        cost_error: 0.0,
+        target: "image".into(),
+    }
+}
+
+fn doc(seed: u64) -> SceneDoc {
+    let mut doc = SceneDoc::default();
+    doc.render.seed = seed;
+    doc
+}
+
+fn question<'a>() -> Question<'a> {
+    Question {
+        reference: None,
+        reference_view: None,
+        baseline: 0,
+        region: None,
+        measures: measure::find("mse").into_iter().collect(),
+    }
+}
+
+fn ranked(views: &[(SceneDoc, Snapshot)], question: &Question<'_>) -> Vec<Standing> {
+    let labels = ["A", "B", "C"];
+    let contenders: Vec<Contender<'_>> =
+        views.iter().zip(labels).map(|((doc, snapshot), label)| Contender { label, doc, snapshot }).collect();
+    rank(&contenders, question, &opponents(&contenders, question))
+}
+
+#[test]
+fn efficiency_is_what_its_formula_says() {
+    let views = [(doc(0), picture(1, 1, 0.0)), (doc(1), picture(2, 4, 0.0))];
+    let standings = ranked(&views, &question());
+    for (s, variance) in standings.iter().zip([1.0, 0.25]) {
+        assert!((s.variance * SPP as f64 / variance - 1.0).abs() < 0.1, "{}", s.variance);
+        assert!((s.efficiency * s.variance * s.cpu_seconds - 1.0).abs() < 1e-9);
+        // Channels are independent here: two thirds of the variance are perpendicular to grey.
+        assert!((s.chroma_variance / s.variance - 2.0 / 3.0).abs() < 0.05);
+        assert_eq!(s.lookups_per_path, 7.0);
+    }
+    assert_eq!((standings[0].speedup, standings[0].speedup_interval), (1.0, [1.0, 1.0]));
+    // Against the other view, whose own noise is taken off: the error is the variance.
+    let mse = standings[0].error("mse").unwrap().corrected();
+    assert!((mse / standings[0].variance - 1.0).abs() < 0.2, "{mse} {}", standings[0].variance);
+}
+
+#[test]
+fn the_interval_of_the_speed_up_holds_the_truth_as_often_as_it_says() {
+    let trials = 200;
+    let hits = (0..trials)
+        .filter(|i| {
+            let views = [(doc(0), picture(2 * i + 100, 1, 0.0)), (doc(1), picture(2 * i + 101, 4, 0.0))];
+            let [lo, hi] = ranked(&views, &question())[1].speedup_interval;
+            lo <= 4.0 && 4.0 <= hi
+        })
+        .count();
+    // 190 ± 3.1 of 200.
+    assert!((181..=199).contains(&hits), "{hits} of {trials}");
+}
+
+#[test]
+fn noise_of_the_cost_widens_the_interval() {
+    let views = |cost_error| {
+        let noisy = Snapshot { cost_error, ..picture(2, 4, 0.0) };
+        [(doc(0), picture(1, 1, 0.0)), (doc(1), noisy)]
+    };
+    let width = |cost| {
+        let [lo, hi] = ranked(&views(cost), &question())[1].speedup_interval;
+        (hi / lo).ln()
+    };
+    assert!(width(0.2) > 0.75 && width(0.2) > 2.0 * width(0.0), "{} {}", width(0.2), width(0.0));
+    assert!(width(f64::INFINITY).is_infinite() || width(f64::INFINITY).is_nan());
+}
+
+#[test]
+fn a_biased_view_judges_nobody_and_is_found() {
+    let mut clamped = doc(2);
+    clamped.medium.majorant.factor = 0.5;
+    clamped.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+    let views = [(doc(0), picture(1, 4, 0.0)), (doc(1), picture(2, 4, 0.0)), (clamped, picture(3, 4, 0.1))];
+    let standings = ranked(&views, &question());
+    let verdicts: Vec<Verdict> = standings.iter().map(Standing::verdict).collect();
+    assert_eq!(verdicts, [Verdict::Agrees, Verdict::Agrees, Verdict::Differs]);
+    assert_eq!(standings[0].against, Against::Others("B".into()));
+    assert_eq!(standings[2].against, Against::Others("A, B".into()));
+    let found = standings[2].agreement.unwrap();
+    assert!((found.difference - 0.1).abs() < 4.0 * found.error, "{found:?}");
+}
+
+#[test]
+fn views_are_held_only_against_what_shows_the_same_image_with_other_numbers() {
+    let nothing = |views: &[(SceneDoc, Snapshot)], question: &Question<'_>| {
+        let s = &ranked(views, question)[0];
+        assert!(s.errors.is_empty() && s.agreement.is_none());
+        match &s.against {
+            Against::Nothing(why) => *why,
+            other => panic!("{other:?}"),
+        }
+    };
+    let (a, b) = (picture(1, 1, 0.0), picture(2, 1, 0.0));
+    // The same seed.
+    assert!(nothing(&[(doc(0), a.clone()), (doc(0), b.clone())], &question()).contains("own seed"));
+    // Another image.
+    let other = Snapshot { target: "another".into(), ..b.clone() };
+    assert!(nothing(&[(doc(0), a.clone()), (doc(1), other.clone())], &question()).contains("same image"));
+    // A reference of another image is not used, whoever else is there.
+    let stale = Reference::of(&Arc::new(other), "stale.exr");
+    let with = Question { reference: Some(&stale), ..question() };
+    assert!(nothing(&[(doc(0), a.clone()), (doc(1), b.clone())], &with).contains("something else"));
+    // A view is no reference for itself.
+    let promoted = Reference::of(&Arc::new(a.clone()), "view A");
+    let with = Question { reference: Some(&promoted), reference_view: Some(0), ..question() };
+    assert!(nothing(&[(doc(0), a), (doc(1), b)], &with).contains("the reference"));
+}
