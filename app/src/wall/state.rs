@@ -140,6 +140,8 @@ impl Wall {
             slot.submit(wanted, &resolved, Role::Contender, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
+        let film = [doc.film.width as usize, doc.film.height as usize];
+        self.picked = self.picked.filter(|[x, y]| *x < film[0] && *y < film[1]);
         self.reference.submit(doc, base, resolved, session)
     }
 

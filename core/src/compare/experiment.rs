@@ -59,13 +59,14 @@ pub fn view_colour(view: usize) -> [u8; 3] {
 }
 
 impl Experiment {
-    /// The region that numbers are about, if it is not the whole.
+    /// The region that numbers are about, if it is not the whole. One that lies beside the picture, whose size
+    /// may have changed, is none.
     #[must_use]
     pub fn region(&self) -> Option<Region> {
-        self.doc.compare.region.map(|[x0, y0, x1, y1]| {
-            let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|x| x as usize);
-            Region { x0, y0, x1, y1 }
-        })
+        let [x0, y0, x1, y1] = self.doc.compare.region?.map(|x| x as usize);
+        let region = Region { x0, y0, x1, y1 };
+        let film = &self.doc.film;
+        (!region.clipped(film.width as usize, film.height as usize).is_empty()).then_some(region)
     }
 
     fn contenders(&self) -> Vec<Contender<'_>> {
