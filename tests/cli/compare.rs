@@ -176,5 +176,5 @@ fn compare_explains_mistakes() {
     compare(&["--measure", "magic"], 2);
     compare(&["--reference-estimator", "nee"], 2);
     fails(&["compare", "furnace", "--json"], 2);
-    fails(&["compare", "furnace", "--spp", "4"], 2);
+    fails(&["compare", "furnace", "--spp", "4", "--html"], 2);
 }

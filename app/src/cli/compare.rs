@@ -78,7 +78,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "ID", value_parser = PossibleValuesParser::new(MEASURES.iter().map(|m| m.id)))]
     measure: Option<String>,
     /// The folder that the report goes into.
-    #[arg(short, long, value_name = "DIR", required_unless_present = "json")]
+    #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Add a page that shows it all, index.html.
     #[arg(long, requires = "output")]

@@ -138,8 +138,8 @@ impl LabApp {
         let file = self.short_name(path);
         let reference = ReferenceDoc::File { file };
         self.apply(Command::Wall(WallEdit::Reference(reference)));
-        let text = format!("{} is the reference: errors are measured against it.", path.display());
-        self.messages.say(Severity::Done, text);
+        self.messages.say(Severity::Done, format!("Reading {} as the reference.", path.display()));
+        self.wall.reread_reference();
         let seed = compare::seed_of(path);
         let sharing = (0..self.doc().view_count())
             .find(|view| seed.is_some() && self.doc().contender(*view).map(|c| c.seed) == seed);
@@ -199,11 +199,15 @@ impl LabApp {
     }
 
     fn export(&mut self, png: bool, path: PathBuf) {
-        let Some(snapshot) = self.shown.clone().filter(|s| s.spp > 0) else {
+        // Picture and document of the selected view belong together, whatever hangs and was edited since.
+        let found = self.wall.selected_slot().and_then(|slot| {
+            let snapshot = slot.state.snapshot.clone().filter(|s| s.spp > 0 && s.coarse.is_none())?;
+            (snapshot.generation == slot.state.generation).then(|| (snapshot, (*slot.rendered).clone()))
+        });
+        let Some((snapshot, doc)) = found else {
             self.messages.fail("There is no picture to export yet. Wait for the first sample per pixel.");
             return;
         };
-        let doc = self.document.resolved();
         self.attempt(|app| app.tasks.export(png, path, snapshot, doc));
     }
 

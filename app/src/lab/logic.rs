@@ -7,7 +7,7 @@ use crate::model::{Document, Source, resolved};
 use crate::view::developer::Sight;
 use crate::view::image_view::ImageView;
 use crate::wall::presets::PRESETS;
-use crate::wall::{Slot, Tool, WallEdit, edited};
+use crate::wall::{Tool, WallEdit, edited};
 use egui::{Context, ViewportCommand};
 use majorant_core::scene::Arrangement;
 use majorant_core::session::{Status, ViewId};
@@ -240,7 +240,7 @@ impl LabApp {
     }
 
     fn each_view(&self, act: impl Fn(&majorant_core::session::Session, ViewId)) {
-        for id in self.wall.slots().iter().map(|slot: &Slot| slot.id) {
+        for id in self.wall.ids() {
             act(&self.session, id);
         }
     }

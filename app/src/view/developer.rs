@@ -99,7 +99,7 @@ struct Desk {
     closed: bool,
     order: Order,
     interval: Duration,
-    done: BTreeMap<Sight, Print>,
+    done: BTreeMap<Sight, Option<Print>>,
 }
 
 /// Tells the window that there is something new; cheap to clone and to ring.
@@ -182,9 +182,9 @@ impl Developer {
         self.bell.lock().interval = interval;
     }
 
-    /// The pictures that were not taken yet.
+    /// The pictures that were not taken yet; none for what has nothing to show any more.
     #[must_use]
-    pub fn take(&self) -> BTreeMap<Sight, Print> {
+    pub fn take(&self) -> BTreeMap<Sight, Option<Print>> {
         std::mem::take(&mut self.bell.lock().done)
     }
 }
@@ -240,7 +240,7 @@ impl PartialEq for Negative {
 }
 
 impl Darkroom {
-    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<Sight, Print> {
+    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<Sight, Option<Print>> {
         let views = order.views.iter().filter_map(|view| {
             let snapshot = poll(view.id)?;
             let label = label(view.number);
@@ -252,7 +252,8 @@ impl Darkroom {
             views: views.collect(),
             reference: order.reference.clone(),
         };
-        let mut done = self.pictures(order, &experiment);
+        let pictures = self.pictures(order, &experiment).into_iter();
+        let mut done: BTreeMap<Sight, Option<Print>> = pictures.map(|(sight, p)| (sight, Some(p))).collect();
         done.extend(self.maps(order, &experiment));
         done
     }
@@ -289,7 +290,7 @@ impl Darkroom {
         done
     }
 
-    fn maps(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Print> {
+    fn maps(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Option<Print>> {
         let Some((map, sights)) = &order.maps else {
             self.maps = None;
             return BTreeMap::new();
@@ -318,7 +319,10 @@ impl Darkroom {
                 },
             )
         };
-        values.into_iter().map(print).collect()
+        // What has no values any more must not go on showing old ones.
+        let mut prints: BTreeMap<Sight, Option<Print>> = sights.iter().map(|sight| (*sight, None)).collect();
+        prints.extend(values.into_iter().map(print).map(|(sight, print)| (sight, Some(print))));
+        prints
     }
 }
 

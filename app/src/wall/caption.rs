@@ -9,7 +9,7 @@ use crate::view::developer::Sight;
 use egui::{
     Align, Color32, CornerRadius, FontId, Frame, Label, Layout, Margin, Rect, RichText, Ui, UiBuilder,
 };
-use majorant_core::compare::{Against, Standing, Verdict, label};
+use majorant_core::compare::{Against, Agreement, Standing, Verdict, label};
 use majorant_core::estimator;
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
 
@@ -69,16 +69,22 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
         }
         Verdict::Agrees => (format!("agrees ({})", probability(found.p)), palette.good),
         Verdict::Undecided => ("too noisy to tell".into(), palette.weak),
+        // Against views that are all called unbiased it is open whose fault it is.
         Verdict::Differs => {
-            // A bias may even out over the whole: then the block where it is worst is named.
-            let whole = found.z.abs() > 4.0;
-            let (difference, error) = match (whole, found.worst) {
-                (false, Some(worst)) => (worst.difference, worst.error),
-                _ => (found.difference, found.error),
-            };
-            let place = if whole { "" } else { " in a part" };
-            (format!("biased: {}{place}", percent(difference, error)), palette.error)
+            let open = matches!(standing.against, Against::Others(_)) && standing.declared_bias.is_none();
+            let word = if open { "differs" } else { "biased" };
+            (format!("{word}: {}", size(found)), palette.error)
         }
+    }
+}
+
+/// How large a difference is. One may even out over the whole: then the block where it is worst is told of.
+pub(super) fn size(found: &Agreement) -> String {
+    match found.worst {
+        Some(worst) if found.z.abs() <= 4.0 => {
+            format!("{} in a part", percent(worst.difference, worst.error))
+        }
+        _ => percent(found.difference, found.error),
     }
 }
 

@@ -80,6 +80,17 @@ impl ReferenceKeeper {
         self.file = None;
     }
 
+    /// A file is read again at the next submission.
+    pub fn forget_file(&mut self) {
+        self.file = None;
+    }
+
+    /// The session's view that renders it, if one does.
+    #[must_use]
+    pub fn id(&self) -> Option<ViewId> {
+        self.rendered.as_ref().map(|slot| slot.id)
+    }
+
     /// A file was read, or not.
     pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
         if let Some(file) = self.file.as_mut().filter(|f| f.path == path) {
@@ -100,7 +111,10 @@ impl ReferenceKeeper {
         };
         match live {
             Some((slot, origin)) => {
-                let usable = slot.state.snapshot.clone().filter(|s| s.spp >= 3 && s.coarse.is_none());
+                let usable =
+                    slot.state.snapshot.clone().filter(|s| {
+                        s.spp >= 3 && s.coarse.is_none() && s.generation == slot.state.generation
+                    });
                 let known = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
                 if !known {
                     let origin = |spp: u32| format!("{origin}, {spp} spp");
@@ -159,7 +173,14 @@ impl ReferenceKeeper {
                     Some(Err(problem)) => state.problem = Some(problem.clone()),
                     Some(Ok(picture)) => {
                         let stale = target.is_some_and(|t| !picture.fits(t));
-                        if stale {
+                        let (film, size) = (&doc.film, (picture.width, picture.height));
+                        if size != (film.width as usize, film.height as usize) {
+                            state.problem = Some(format!(
+                                "It has {} × {} pixels, but the scene {} × {}: it is not used. Load a picture of \
+                                 this size.",
+                                size.0, size.1, film.width, film.height
+                            ));
+                        } else if stale {
                             state.problem = Some(
                                 "The scene has changed since this picture was made: it is not used. Load or \
                                  render another, or undo the change."

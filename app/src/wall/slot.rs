@@ -50,8 +50,12 @@ impl Slot {
         session: &Session,
     ) {
         match self.work(wanted) {
-            Work::None => return,
-            Work::Limits => session.set_limits(self.id, wanted.render.limits()),
+            // The picture stands; how it is shown and what it is called may not.
+            Work::None => self.rendered = Arc::new(resolved(wanted)),
+            Work::Limits => {
+                self.rendered = Arc::new(resolved(wanted));
+                session.set_limits(self.id, wanted.render.limits());
+            }
             Work::Render => {
                 self.rendered = Arc::new(resolved(wanted));
                 let preview = role == Role::Contender;

@@ -140,8 +140,6 @@ impl Wall {
             slot.submit(wanted, &resolved, Role::Contender, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
-        let film = [doc.film.width as usize, doc.film.height as usize];
-        self.picked = self.picked.filter(|[x, y]| *x < film[0] && *y < film[1]);
         self.reference.submit(doc, base, resolved, session)
     }
 
@@ -156,14 +154,17 @@ impl Wall {
     }
 
     /// Takes note of what session and threads have done; `prints` are new pictures.
-    pub fn update(&mut self, ctx: &Context, session: &Session, prints: BTreeMap<Sight, Print>) {
+    pub fn update(&mut self, ctx: &Context, session: &Session, prints: BTreeMap<Sight, Option<Print>>) {
         for slot in &mut self.slots {
             slot.update(session);
         }
         let target = self.target();
         self.reference.update(&self.doc, &self.slots, target.as_deref(), session);
         for (sight, print) in prints {
-            self.hang(ctx, sight, print);
+            match print {
+                Some(print) => self.hang(ctx, sight, print),
+                None => drop(self.hung.remove(&sight)),
+            }
         }
         let sights = self.sights();
         self.hung.retain(|sight, _| sights.contains(sight));
@@ -198,6 +199,9 @@ impl Wall {
 
     /// Asks the analyst again if anything has changed that numbers depend on.
     fn ask(&mut self) {
+        // A click may have met the old picture of a film that is smaller now.
+        let film = [self.doc.film.width as usize, self.doc.film.height as usize];
+        self.picked = self.picked.filter(|[x, y]| *x < film[0] && *y < film[1]);
         let experiment = self.experiment();
         let asking = Asked {
             doc: Arc::clone(&self.doc),
@@ -332,10 +336,26 @@ impl Wall {
         &self.analysis
     }
 
-    /// A picture on the wall.
+    /// A picture on the wall; none if what hangs is a map that is not wanted now.
     #[must_use]
     pub fn hung(&self, sight: Sight) -> Option<&Hung> {
-        self.hung.get(&sight)
+        let wanted = self.map().map(|map| map.id);
+        self.hung.get(&sight).filter(|hung| {
+            let map = hung.map.as_ref().map(|print| print.map.id);
+            map.is_none() || map == wanted || wanted.is_none()
+        })
+    }
+
+    /// A reference file is read again, whatever is known of it.
+    pub fn reread_reference(&mut self) {
+        self.reference.forget_file();
+        self.forgotten = true;
+    }
+
+    /// The session's views, that of the reference too.
+    #[must_use]
+    pub fn ids(&self) -> Vec<ViewId> {
+        self.slots.iter().map(|slot| slot.id).chain(self.reference.id()).collect()
     }
 
     /// What there is to say about the reference.

@@ -146,7 +146,8 @@ pub fn rank(
     question: &Question<'_>,
     opponents: &[Opponent<'_>],
 ) -> Vec<Standing> {
-    let baseline = contenders.get(question.baseline).and_then(|b| efficiency(b, question.region));
+    let baseline = contenders.get(question.baseline);
+    let baseline = baseline.and_then(|b| Some((efficiency(b, question.region)?, b.snapshot.target.as_str())));
     let views = contenders.iter().zip(opponents).enumerate();
     views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline)).collect()
 }
@@ -176,7 +177,7 @@ fn standing(
     index: usize,
     (against, held): &Opponent<'_>,
     question: &Question<'_>,
-    baseline: Option<Efficiency>,
+    baseline: Option<(Efficiency, &str)>,
 ) -> Option<Standing> {
     let snapshot = view.snapshot;
     let estimate = Estimate::of(snapshot)?;
@@ -186,7 +187,9 @@ fn standing(
     let mine = efficiency(view, question.region)?;
     let (speedup, speedup_interval) = match baseline {
         Some(_) if index == question.baseline => (1.0, [1.0, 1.0]),
-        Some(base) => {
+        // To be sooner at another image is no advantage.
+        Some((_, target)) if target != snapshot.target => (f64::NAN, [f64::NAN; 2]),
+        Some((base, _)) => {
             let ratio = mine.value / base.value;
             let factor = (INTERVAL * mine.relative_error.hypot(base.relative_error)).exp();
             (ratio, [ratio / factor, ratio * factor])
@@ -252,6 +255,12 @@ pub(super) fn opponent<'a>(
                 None,
             );
         }
+        if reference.seed == Some(view.doc.render.seed) {
+            return (
+                Against::Nothing("it has the random numbers of the reference: give it another seed"),
+                None,
+            );
+        }
         if reference.fits(&view.snapshot.target) {
             return (Against::Reference(reference.origin.clone()), Some(Cow::Borrowed(reference)));
         }
@@ -263,6 +272,16 @@ pub(super) fn opponent<'a>(
         .filter(|(j, other)| *j != index && other.declared_bias().is_none() && view.is_comparable(other))
         .map(|(_, other)| other)
         .filter(|other| Estimate::of(other.snapshot).is_some())
+        .collect();
+    let mut seeds = Vec::new();
+    let others: Vec<&Contender<'_>> = others
+        .into_iter()
+        // Equal random numbers are no more information than one of them.
+        .filter(|other| {
+            let fresh = !seeds.contains(&other.doc.render.seed);
+            seeds.push(other.doc.render.seed);
+            fresh
+        })
         .collect();
     let labels = others.iter().map(|o| o.label).collect::<Vec<_>>().join(", ");
     let snapshots: Vec<&Snapshot> = others.iter().map(|o| o.snapshot).collect();

@@ -21,6 +21,8 @@ pub struct Reference {
     pub target: Option<String>,
     /// Where it comes from, for people.
     pub origin: String,
+    /// Its random numbers, if a file says so: no view may have the same.
+    pub seed: Option<u64>,
 }
 
 /// Whose pixels they are: a view's are shared, not copied.
@@ -40,6 +42,7 @@ impl Reference {
             target: (!snapshot.target.is_empty()).then(|| snapshot.target.clone()),
             picture: Source::View(Arc::clone(snapshot)),
             origin: origin.into(),
+            seed: None,
         }
     }
 
@@ -90,6 +93,7 @@ impl Reference {
             },
             target: target.map(str::to_owned),
             origin: name.into_owned(),
+            seed: metadata.as_ref().and_then(|m| m["seed"].as_u64()),
         })
     }
 
@@ -145,6 +149,7 @@ impl Reference {
             picture: Source::Own { mean, standard_error: Some(standard_error), noise: Some(noise) },
             target: Some(first.target.clone()),
             origin: origin.into(),
+            seed: None,
         })
     }
 

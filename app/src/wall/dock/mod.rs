@@ -30,7 +30,7 @@ pub trait Tab: Sync {
     fn title(&self) -> &'static str;
     /// Its content.
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
-    /// The same as text, for a spreadsheet; none if there is nothing yet.
+    /// The same as text, for a spreadsheet; none if there is nothing yet. Asked for on a click only.
     fn csv(&self, cx: &Cx<'_>) -> Option<String>;
 }
 
@@ -54,14 +54,14 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
                 }
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let csv = tab.csv(cx);
                 let button = Button::new(RichText::new("Copy as CSV").small());
-                if ui.add_enabled(csv.is_some(), button).clicked()
-                    && let Some(csv) = csv
+                if ui.add_enabled(!cx.wall.analysis().standings.is_empty(), button).clicked()
+                    && let Some(csv) = tab.csv(cx)
                 {
                     ui.ctx().copy_text(csv);
                 }
-                if let Some((_, found)) = cx.wall.analysis().pair.filter(|_| cx.doc.view_count() > 1) {
+                let pair = cx.wall.analysis().pair.filter(|(pair, _)| *pair == cx.doc.compare.pair);
+                if let Some((_, found)) = pair.filter(|_| cx.doc.view_count() > 1) {
                     let (text, colour) = pair_verdict(cx, &found, palette);
                     ui.add(
                         Label::new(RichText::new(text).small().color(colour)).truncate().selectable(false),
@@ -79,7 +79,7 @@ fn pair_verdict(
     found: &majorant_core::compare::Agreement,
     palette: &Palette,
 ) -> (String, egui::Color32) {
-    use super::caption::{percent, probability};
+    use super::caption::probability;
     use majorant_core::compare::{Verdict, label};
     let majorant_core::scene::Pair(a, b) = cx.doc.compare.pair;
     let (a, b) = (label(a), label(b));
@@ -88,7 +88,7 @@ fn pair_verdict(
         Verdict::Agrees => (format!("{a} and {b} agree{place} ({})", probability(found.p)), palette.good),
         Verdict::Undecided => (format!("{a} and {b}: too noisy to tell{place}"), palette.weak),
         Verdict::Differs => {
-            (format!("{a} and {b} differ: {}{place}", percent(found.difference, found.error)), palette.error)
+            (format!("{a} and {b} differ: {}{place}", super::caption::size(found)), palette.error)
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::wall::WallEdit;
 use crate::wall::caption::{against, chip, digits, verdict};
 use egui::{Align, Color32, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
-use majorant_core::compare::Standing;
+use majorant_core::compare::{Standing, Verdict};
 use majorant_core::measure::{self, Measure};
 use std::fmt::Write;
 
@@ -223,9 +223,10 @@ fn winner(standings: &[Standing]) -> Option<&str> {
     }
     let best = standings
         .iter()
-        .filter(|s| s.declared_bias.is_none())
+        .filter(|s| s.declared_bias.is_none() && s.verdict() != Verdict::Differs && s.speedup.is_finite())
         .max_by(|a, b| a.speedup.total_cmp(&b.speedup))?;
-    let clear = standings.iter().filter(|s| s.label != best.label).all(|other| {
+    let mut rivals = standings.iter().filter(|s| s.label != best.label && s.speedup.is_finite());
+    let clear = rivals.all(|other| {
         // Intervals of the baseline are those of the other one.
         best.speedup_interval[0] > other.speedup_interval[1].max(other.speedup)
     });
@@ -235,6 +236,7 @@ fn winner(standings: &[Standing]) -> Option<&str> {
 /// A ratio with three digits.
 fn factor(ratio: f64) -> String {
     match ratio {
+        r if r.is_nan() => "–".into(),
         r if r < 0.001 => format!("{r:.1e}"),
         r if r < 0.1 => format!("{r:.4}"),
         r if r < 10.0 => format!("{r:.2}"),

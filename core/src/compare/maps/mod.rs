@@ -38,6 +38,9 @@ struct Pixel {
     reference_grey_variance: f32,
 }
 
+/// Relative error that single precision may leave in a mean.
+const ROUNDING: f32 = 5e-5;
+
 /// ε of relative errors: keeps dark pixels from deciding alone.
 const EPSILON: f32 = 0.01;
 
@@ -49,7 +52,9 @@ impl Pixel {
 
 fn z(p: &Pixel) -> f32 {
     let difference = average(p.differences());
-    let error = (p.grey_variance + p.reference_grey_variance).sqrt();
+    // Single precision leaves so much in a mean even where there is no noise at all.
+    let rounding = ROUNDING * average(p.mean).abs().max(average(p.reference).abs());
+    let error = (p.grey_variance + p.reference_grey_variance + rounding * rounding).sqrt();
     if difference == 0.0 { 0.0 } else { difference / error }
 }
 
@@ -202,7 +207,7 @@ impl Map {
 fn mean(pixels: impl Iterator<Item = Pixel>) -> Pixel {
     let mut sum = Pixel::default();
     let mut n = 0.0;
-    for p in pixels.filter(|p| p.mean.iter().chain(&p.variance).all(|x| x.is_finite())) {
+    for p in pixels.filter(|p| p.mean.iter().chain(&p.variance).chain(&p.reference).all(|x| x.is_finite())) {
         n += 1.0;
         for c in 0..3 {
             sum.mean[c] += p.mean[c];
@@ -234,7 +239,9 @@ fn pixel(view: &Estimate<'_>, reference: Option<&Estimate<'_>>, i: usize) -> Pix
     };
     let grey_variance = |e: &Estimate<'_>| {
         let chroma = e.noise.and_then(|n| n.get(i)).map_or(0.0, |n| n.chroma_variance);
-        (average(variance(e)) - chroma).max(0.0)
+        let grey = average(variance(e)) - chroma;
+        // `max` would take what is unknown, below two samples, for no noise.
+        if grey.is_nan() { grey } else { grey.max(0.0) }
     };
     let noise = view.noise.and_then(|n| n.get(i));
     Pixel {
