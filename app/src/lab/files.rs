@@ -63,7 +63,13 @@ impl LabApp {
     fn suggestion(&self, purpose: Purpose) -> String {
         let stem = match self.document.path() {
             Some(path) => path.with_extension(""),
-            None => self.document.base().join(self.doc().title.to_lowercase().replace(' ', "-")),
+            None => {
+                // What no file system minds.
+                let plain = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+                let name: String = self.doc().title.chars().map(plain).collect();
+                let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
+                self.document.base().join(words.join("-"))
+            }
         };
         let stem = stem.to_string_lossy();
         match purpose {

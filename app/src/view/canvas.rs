@@ -120,7 +120,7 @@ fn wipe_ui(ui: &mut Ui, second: Option<&TextureHandle>, at: f32, canvas: Rect, f
         let uv = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         ui.painter_at(right).image(texture.id(), frame, uv, Color32::WHITE);
     }
-    let handle = Rect::from_x_y_ranges(x - 7.0..=x + 7.0, canvas.y_range());
+    let handle = Rect::from_x_y_ranges(x - 12.0..=x + 12.0, canvas.y_range());
     let response = ui.interact(handle, ui.unique_id().with("divider"), Sense::drag());
     response.widget_info(|| WidgetInfo::slider(true, f64::from(at), "Divider"));
     let colour = if response.hovered() || response.dragged() { palette.accent } else { Color32::WHITE };

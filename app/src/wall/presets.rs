@@ -76,6 +76,11 @@ fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
 }
 
 fn bias(mut doc: SceneDoc) -> SceneDoc {
+    doc.title = "A bias to be found".into();
+    doc.note = "Views B and C have a majorant that is too low. B weighs what exceeds it and stays unbiased, at the \
+                price of noise; C cuts it off. Their pictures look alike: choose `z of blocks` as the layer, or wait \
+                for the verdict."
+        .into();
     doc.render.spp = None;
     let base = doc.contender(0).unwrap_or_default();
     for (when_exceeded, factor) in [(WhenExceeded::Weighted, 0.97), (WhenExceeded::Clamp, 0.9)] {

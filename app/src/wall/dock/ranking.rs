@@ -266,6 +266,11 @@ fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     } else {
         String::new()
     };
-    let text = format!("Over {place}, at {fair}{excluded}. Reference: {}.", cx.wall.reference_state().text);
+    use majorant_core::scene::ReferenceDoc;
+    let held = match &cx.doc.compare.reference {
+        ReferenceDoc::None | ReferenceDoc::Pooled => "the mean of the other unbiased views".to_owned(),
+        _ => cx.wall.reference_state().text,
+    };
+    let text = format!("Over {place}, at {fair}{excluded}. Errors and verdicts: against {held}.");
     ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
 }
