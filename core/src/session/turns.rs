@@ -14,7 +14,8 @@ fn had(view: &Active, fairness: Fairness) -> f64 {
     match fairness {
         Fairness::Time => view.cpu_seconds,
         Fairness::Samples => f64::from(view.spp),
-        Fairness::Lookups => view.tally.lookups as f64,
+        // A path counts as one at least: what never meets the medium must not have all the turns.
+        Fairness::Lookups => view.tally.lookups.max(view.tally.paths) as f64,
     }
 }
 
