@@ -205,7 +205,13 @@ impl Wall {
                 badge(&mut child, palette.accent, "preview");
             }
             if let Some(Status::Failed(text)) = self.slots().get(view).map(|s| &s.state.status) {
-                failure_ui(ui, canvas, text, hung.is_some());
+                // Views that fail alike need to say so once.
+                let said =
+                    self.slots().iter().take(view).any(|s| s.state.status == Status::Failed(text.clone()));
+                if !said || doc.compare.arrangement != Arrangement::Grid {
+                    failure_ui(ui, canvas, text, hung.is_some());
+                }
+                return;
             }
         }
         if let Some(map) = self.map().filter(|_| self.hung(sight).is_none_or(|h| h.map.is_none())) {
@@ -268,16 +274,23 @@ fn empty_ui(ui: &mut Ui, canvas: Rect, title: &str, text: &str) {
 /// Why nothing new is shown, over the last picture.
 fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
     let palette = Palette::get(ui);
-    let width = (canvas.width() - 64.0).clamp(120.0, 560.0);
+    let small = canvas.width() < 400.0;
+    let (gap, margin): (f32, i8) = if small { (6.0, 8) } else { (44.0, 14) };
+    let width = (canvas.width() - 2.0 * gap.min(32.0)).clamp(120.0, 560.0);
     let left = canvas.left() + 0.5 * (canvas.width() - width);
-    let area = Rect::from_min_size(pos2(left, canvas.top() + 44.0), vec2(width, 10.0));
+    let area = Rect::from_min_size(pos2(left, canvas.top() + gap), vec2(width, 10.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(area));
-    let frame =
-        Frame::popup(child.style()).inner_margin(Margin::same(14)).stroke(Stroke::new(1.0, palette.error));
+    child.set_clip_rect(canvas);
+    let frame = Frame::popup(child.style())
+        .inner_margin(Margin::same(margin))
+        .stroke(Stroke::new(1.0, palette.error));
     frame.show(&mut child, |ui| {
-        ui.set_width(width - 28.0);
+        ui.set_width(width - 2.0 * f32::from(margin));
         ui.label(RichText::new("This scene cannot be rendered").color(palette.error));
         ui.add(Label::new(RichText::new(text).color(palette.strong)).wrap());
+        if small {
+            return;
+        }
         let kept = "Your edits are kept: correct them, or take them back with Ctrl + Z.";
         let kept =
             if pictured { format!("The last picture is shown, dimmed. {kept}") } else { kept.to_owned() };
