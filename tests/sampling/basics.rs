@@ -5,7 +5,8 @@ use majorant_core::math::{INV_4PI, Sampler, cosine_direction, uniform_direction}
 use majorant_core::medium::{Coefficients, MajorantSegment};
 use majorant_core::scene::Absorption;
 use majorant_core::spectrum::{
-    Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, RgbChannels, Sampled, Wavelengths,
+    Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, RgbChannels, Sampled, WavelengthSampling,
+    Wavelengths,
 };
 use majorant_core::transport::{Collision, Event, Trace, Wanted};
 use majorant_tests::chi2::Family;
@@ -49,7 +50,8 @@ fn directions_are_uniform_and_cosine_weighted() {
 
 fn wavelengths<const N: usize>(family: &mut Family) {
     let mut sampler = Sampler::new(4, N as u64, 0);
-    let sets: Vec<_> = (0..SAMPLES).map(|_| Wavelengths::<N>::sample(sampler.next_1d())).collect();
+    let uniform = WavelengthSampling::Uniform;
+    let sets: Vec<_> = (0..SAMPLES).map(|_| Wavelengths::<N>::sample(sampler.next_1d(), uniform)).collect();
     for i in 0..N {
         let over_range = sets.iter().map(|set| {
             assert!((LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&set.lambda_nm[i]));
@@ -63,7 +65,7 @@ fn channels<const N: usize>(family: &mut Family) {
     let mut sampler = Sampler::new(5, N as u64, 0);
     let mut counts = [0; 3];
     for _ in 0..SAMPLES {
-        let set = RgbChannels::<N>::sample(sampler.next_1d());
+        let set = RgbChannels::<N>::sample(sampler.next_1d(), WavelengthSampling::Uniform);
         counts[set.channel[0]] += 1;
         assert!((1..N).all(|i| set.channel[i] == (set.channel[0] + i) % 3), "{set:?} is no rotation");
     }

@@ -10,11 +10,12 @@ use majorant_core::io::{Library, scene_file};
 use majorant_core::math::{Ray, Sampler};
 use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
 use majorant_core::scene::{Absorption, Scene, build};
-use majorant_core::spectrum::{Components, RgbChannels, Sampled, Wavelengths};
+use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
 use majorant_core::transport::{Event, PathWeights, Trace, Walk, Wanted};
 use majorant_tests::chi2::Family;
 
 const WALKS: u64 = 30_000;
+const BY: WavelengthSampling = WavelengthSampling::Uniform;
 /// Extinction of density 1, by channel and by wavelength.
 const RGB: [f64; 3] = [1.0, 3.0, 6.0];
 const POINTS: [(f64, f64); 4] = [(400.0, 0.5), (500.0, 6.0), (560.0, 2.0), (700.0, 4.0)];
@@ -76,7 +77,7 @@ fn fly<L: LocalMedium<N>, const N: usize>(
     }
 }
 
-fn scene(grid: bool, extinction: &str, factor: f64) -> Scene {
+fn scene(grid: bool, extinction: &str, factor: f64, cells: u32) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     line::write(folder.path());
     let density = if grid {
@@ -91,7 +92,7 @@ fn scene(grid: bool, extinction: &str, factor: f64) -> Scene {
         albedo = 0.7
         density = {{ {density} }}
         placement = {}
-        majorant = {{ factor = {factor:?} }}
+        majorant = {{ factor = {factor:?}, resolution = {cells} }}
         [[lights]]
         kind = \"environment\"",
         line::PLACEMENT
@@ -108,17 +109,45 @@ fn fly_at<C: Components<N>, const N: usize>(
     (components, hero, factor): (&C, f64, f64),
     end: f64,
 ) {
-    let majorant = hero * line.max_density * factor;
-    let truth = Truth {
-        majorant: &|t| majorant * (t - line.enter),
-        extinction: &|t| hero * line.column(t),
-        end: end.min(line.exit),
-    };
     let ray = (&line.ray, end as f32);
+    let global = hero * line.max_density * factor;
+    let global = |t: f64| global * (t - line.enter);
+    let extinction = |t: f64| hero * line.column(t);
+    let truth = |majorant| Truth { majorant, extinction: &extinction, end: end.min(line.exit) };
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => fly(family, name, &truth, (&m.local(components), scene), ray),
-        AnyMedium::DensityGrid(m) => fly(family, name, &truth, (&m.local(components), scene), ray),
+        AnyMedium::Homogeneous(m) => fly(family, name, &truth(&global), (&m.local(components), scene), ray),
+        AnyMedium::DensityGrid(m) if m.bounds.cells() == 1 => {
+            fly(family, name, &truth(&global), (&m.local(components), scene), ray);
+        }
+        AnyMedium::DensityGrid(m) => {
+            let local = m.local(components);
+            let depth = depth_by_cells(&local, scene, line);
+            assert!(depth(line.exit) < 0.9 * global(line.exit), "local majorants are no tighter");
+            fly(family, name, &truth(&depth), (&local, scene), ray);
+        }
         AnyMedium::RgbGrids(_) => panic!("there is no RGB grid"),
+    }
+}
+
+/// Optical depth by the hero's local majorants, from where the line enters the box.
+fn depth_by_cells<L: LocalMedium<N>, const N: usize>(
+    medium: &L,
+    scene: &Scene,
+    line: &Line,
+) -> impl Fn(f64) -> f64 {
+    let entry = line.ray.at(line.enter as f32);
+    let ray = Ray {
+        origin: scene.medium_from_world.transform_point3(entry),
+        direction: scene.medium_from_world.transform_vector3(line.ray.direction),
+    };
+    let cells: Vec<_> = medium.segments(&ray, 0.0, (line.exit - line.enter) as f32).collect();
+    let enter = line.enter;
+    move |t| {
+        let spent = cells.iter().map(|cell| {
+            let (from, to) = (f64::from(cell.t0), f64::from(cell.t1));
+            ((t - enter).min(to) - from).max(0.0) * f64::from(cell.majorant.hero())
+        });
+        spent.sum()
     }
 }
 
@@ -132,22 +161,24 @@ fn between_points(lambda_nm: f64) -> f64 {
 fn flights_follow_the_majorant_and_real_collisions_the_extinction() {
     let mut family = Family::default();
     let points: Vec<_> = POINTS.iter().map(|(nm, value)| format!("{nm}:{value}")).collect();
-    for (grid, factor) in [false, true].into_iter().flat_map(|grid| [1.0, 1.7, 10.0].map(|f| (grid, f))) {
+    let uniform = [1.0, 1.7, 10.0].map(|factor| (false, factor, 1));
+    let cells = [(true, 1.0, 1), (true, 1.7, 1), (true, 10.0, 1), (true, 1.0, 5), (true, 1.7, 16)];
+    for (grid, factor, cells) in uniform.into_iter().chain(cells) {
         let line = Line::new(grid);
-        let name = format!("{} × {factor}", if grid { "grid" } else { "homogeneous" });
-        let rgb = scene(grid, &format!("{{ rgb = {RGB:?} }}"), factor);
+        let name = format!("{} × {factor}, {cells}³", if grid { "grid" } else { "homogeneous" });
+        let rgb = scene(grid, &format!("{{ rgb = {RGB:?} }}"), factor, cells);
         for (u, hero) in [0.2, 0.5, 0.8].into_iter().zip(RGB) {
-            let set = RgbChannels::<3>::sample(u);
+            let set = RgbChannels::<3>::sample(u, BY);
             fly_at(&mut family, &format!("{name}, {set:?}"), (&rgb, &line), (&set, hero, factor), 9.0);
         }
-        let spectral = scene(grid, &format!("\"{}\"", points.join(", ")), factor);
+        let spectral = scene(grid, &format!("\"{}\"", points.join(", ")), factor, cells);
         for u in [0.12, 0.3, 0.55] {
-            let set = Wavelengths::<4>::sample(u);
+            let set = Wavelengths::<4>::sample(u, BY);
             let hero = between_points(f64::from(set.lambda_nm[0]));
             fly_at(&mut family, &format!("{name}, {set:?}"), (&spectral, &line), (&set, hero, factor), 9.0);
         }
         // The way to a surface within the box.
-        let (set, end) = (RgbChannels::<1>::sample(0.5), 0.4 * line.enter + 0.6 * line.exit);
+        let (set, end) = (RgbChannels::<1>::sample(0.5, BY), 0.4 * line.enter + 0.6 * line.exit);
         fly_at(&mut family, &format!("{name}, cut short"), (&rgb, &line), (&set, RGB[1], factor), end);
     }
     family.judge();
@@ -183,7 +214,7 @@ impl LocalMedium<3> for Stretches {
 #[test]
 fn one_optical_depth_is_spent_over_many_stretches() {
     let mut family = Family::default();
-    let (scene, line) = (scene(false, "1.0", 1.0), Line::new(false));
+    let (scene, line) = (scene(false, "1.0", 1.0, 1), Line::new(false));
     for hero in 0..3 {
         let majorant = |t: f64| -> f64 {
             let place = (t - line.enter) / (line.exit - line.enter);

@@ -5,7 +5,7 @@ use super::Estimator;
 use crate::math::Sampler;
 use crate::medium::{AnyMedium, Medium};
 use crate::scene::{EstimatorDoc, Mode, Scene};
-use crate::spectrum::{Components, RgbChannels, Wavelengths};
+use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transport::{PathSettings, Trace, Wanted, World};
 use glam::{Vec2, Vec3};
 
@@ -28,6 +28,8 @@ pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, wanted: 
 pub struct Settings {
     /// Spectral or RGB.
     pub mode: Mode,
+    /// How spectral mode draws wavelengths.
+    pub wavelengths: WavelengthSampling,
     /// Choices that every path shares.
     pub path: PathSettings,
     /// Selects the random numbers.
@@ -43,7 +45,7 @@ impl Settings {
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
             roulette_depth: doc.roulette_depth.unwrap_or(u32::MAX),
         };
-        Self { mode: doc.mode, path, seed }
+        Self { mode: doc.mode, wavelengths: doc.wavelengths, path, seed }
     }
 }
 
@@ -56,16 +58,19 @@ pub struct PathEstimate {
     pub lookups: u64,
 }
 
-/// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels.
+/// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels, or one
+/// that stands for all of them where nothing has a colour.
 pub(super) fn family<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
     wanted: Wanted<'_>,
 ) -> PathEstimate {
-    match s.mode {
-        Mode::Spectral => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, wanted),
-        Mode::Rgb => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, wanted),
+    match (s.mode, scene.achromatic) {
+        (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, wanted),
+        (Mode::Spectral, true) => in_medium::<E, Grey<true>, 1>(scene, s, at, wanted),
+        (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, wanted),
+        (Mode::Rgb, true) => in_medium::<E, Grey<false>, 1>(scene, s, at, wanted),
     }
 }
 
@@ -106,7 +111,7 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let mut trace = Trace::new(Sampler::new(settings.seed, pixel, at.sample), wanted);
     let jitter = trace.sampler.next_2d();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
-    let components = C::sample(trace.sampler.next_1d());
+    let components = C::sample(trace.sampler.next_1d(), settings.wavelengths);
     let world = World { scene, medium: medium.local(&components), components, settings: settings.path };
     let radiance = E::estimate(&world, ray, &mut trace);
     PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }

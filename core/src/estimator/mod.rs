@@ -12,7 +12,7 @@ pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{self, Problem, ReferenceDoc, SceneDoc, WhenExceeded};
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::Components;
 use crate::transport::{Trace, World};
 
 /// One estimator as people meet it.
@@ -85,7 +85,7 @@ pub trait Estimator {
         world: &World<'_, L, C, N>,
         ray: Ray,
         trace: &mut Trace<'_>,
-    ) -> Sampled<N>;
+    ) -> C::Radiance;
 }
 
 #[cfg(test)]

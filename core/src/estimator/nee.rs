@@ -12,7 +12,7 @@
 use super::{Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::{Components, Radiance};
 use crate::transport::{Event, PathWeights, Trace, Vertex, World};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -31,8 +31,8 @@ impl Estimator for Nee {
         world: &World<'_, L, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
-    ) -> Sampled<N> {
-        let mut radiance = Sampled::ZERO;
+    ) -> C::Radiance {
+        let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {

@@ -14,7 +14,7 @@
 use super::{Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::{Components, Radiance};
 use crate::transport::{Event, PathWeights, Trace, Vertex, World};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -33,8 +33,8 @@ impl Estimator for UniNeeMis {
         world: &World<'_, L, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
-    ) -> Sampled<N> {
-        let mut radiance = Sampled::ZERO;
+    ) -> C::Radiance {
+        let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {

@@ -3,7 +3,7 @@
 use super::volume::{self, Limits, SampleConvention, VoxelGrid};
 use super::{embedded, fingerprint, picture};
 use crate::light::Panorama;
-use crate::medium::{Grid, Lattice};
+use crate::medium::{Grid, Lattice, Majorants};
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
 use glam::{Affine3A, DAffine3, DVec3};
 use std::collections::{BTreeMap, HashMap};
@@ -166,7 +166,9 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
     // The readers give `.npy` and `.raw` a box of their own choice.
     let says_where =
         path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
-    Ok(PlacedGrid { grid: Arc::new(grid), object_from_unit, says_where, notices })
+    let grid = Arc::new(grid);
+    let majorants = Arc::new(Majorants::new(Arc::clone(&grid)));
+    Ok(PlacedGrid { grid, majorants, object_from_unit, says_where, notices })
 }
 
 fn pad<const C: usize>(

@@ -2,7 +2,7 @@
 
 use super::{Emitter, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
-use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
 
 /// A constant environment.
@@ -21,7 +21,7 @@ impl Emitter for Environment {
         INV_4PI
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
-        components.evaluate(&self.radiance)
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
+        components.radiance(&self.radiance)
     }
 }

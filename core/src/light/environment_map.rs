@@ -7,7 +7,7 @@
 
 use super::{Emitter, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::Components;
 use glam::{Vec2, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -112,9 +112,9 @@ impl Emitter for EnvironmentMap {
         self.panorama.density(self.turned(direction, -self.rotate))
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance {
         let texel = self.panorama.texel(self.turned(direction, -self.rotate));
-        components.upsample_radiance(Vec3::from(texel) * self.scale)
+        components.radiance_of_rgb(Vec3::from(texel) * self.scale)
     }
 }
 

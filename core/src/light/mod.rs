@@ -15,7 +15,7 @@ pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
 pub use sun::Sun;
 
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::Components;
 use glam::{Vec2, Vec3};
 
 /// A direction drawn towards a light.
@@ -39,7 +39,7 @@ pub trait Emitter {
     fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32;
 
     /// Radiance that arrives from `direction`, which reaches the light's emitting side.
-    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N>;
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance;
 }
 
 /// Any light.
@@ -100,7 +100,7 @@ impl Emitter for Light {
         each!(self, light => light.density(from, direction, distance))
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> Sampled<N> {
+    fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance {
         each!(self, light => light.radiance(direction, components))
     }
 }

@@ -1,7 +1,7 @@
 //! A rectangle that emits on its normal's side. Sampled uniformly over its area.
 
 use super::{Emitter, LightSample};
-use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::spectrum::{Components, Spectrum};
 use crate::surface::Rectangle;
 use glam::{Vec2, Vec3};
 
@@ -33,7 +33,7 @@ impl Emitter for RectangleLight {
         if cosine <= 0.0 { 0.0 } else { distance * distance / (self.shape.area * cosine) }
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
-        components.evaluate(&self.radiance)
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
+        components.radiance(&self.radiance)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Emitter, LightSample};
 use crate::math::{Frame, PolarAngle};
-use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::spectrum::{Components, Spectrum};
 use crate::surface::Sphere;
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
@@ -30,7 +30,7 @@ impl Emitter for SphereLight {
         let distance2 = to_center.length_squared();
         let cap = self.one_minus_cos_max(distance2)?;
         let theta = PolarAngle::from_one_minus_cos(u.x * cap);
-        let direction = Frame::about(to_center / distance2.sqrt()).polar(theta, TAU * u.y);
+        let direction = Frame::about(to_center / distance2.sqrt()).polar(theta, u.y);
         // Distance to the near side: foot of the centre on the ray, less half a chord.
         let along = to_center.dot(direction);
         let off_axis2 = (to_center - direction * along).length_squared();
@@ -43,7 +43,7 @@ impl Emitter for SphereLight {
             .map_or(0.0, |cap| 1.0 / (TAU * cap))
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
-        components.evaluate(&self.radiance)
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
+        components.radiance(&self.radiance)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Emitter, LightSample};
 use crate::math::{Frame, PolarAngle};
-use crate::spectrum::{Components, Sampled, Spectrum};
+use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
@@ -39,7 +39,7 @@ impl Sun {
 impl Emitter for Sun {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
         let theta = PolarAngle::from_one_minus_cos(u.x * self.one_minus_cos_max);
-        let direction = Frame::about(self.toward).polar(theta, TAU * u.y);
+        let direction = Frame::about(self.toward).polar(theta, u.y);
         Some(LightSample {
             direction,
             distance: f32::INFINITY,
@@ -51,8 +51,8 @@ impl Emitter for Sun {
         1.0 / (TAU * self.one_minus_cos_max)
     }
 
-    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> Sampled<N> {
-        components.evaluate(&self.radiance)
+    fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
+        components.radiance(&self.radiance)
     }
 }
 

@@ -1,6 +1,6 @@
 //! An orthonormal frame about a direction.
 
-use super::PolarAngle;
+use super::{PolarAngle, sin_cos_turns};
 use glam::Vec3;
 
 /// Right-handed orthonormal axes whose third is a given unit vector.
@@ -31,10 +31,10 @@ impl Frame {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    /// The unit vector at an angle from `z`, at an azimuth in radians.
+    /// The unit vector at an angle from `z`, at an azimuth in turns.
     #[must_use]
-    pub fn polar(&self, theta: PolarAngle, phi: f32) -> Vec3 {
-        let (sin_phi, cos_phi) = phi.sin_cos();
+    pub fn polar(&self, theta: PolarAngle, turns: f32) -> Vec3 {
+        let (sin_phi, cos_phi) = sin_cos_turns(turns);
         let sin = theta.sin();
         self.to_world(Vec3::new(sin * cos_phi, sin * sin_phi, theta.cos())).normalize()
     }

@@ -1,17 +1,19 @@
 //! Geometry and randomness that nothing else in the crate is below of.
 
+mod fast;
 mod frame;
 mod polar;
 mod ray;
 mod sampler;
 
+pub use fast::{exp, ln, sin_cos_turns};
 pub use frame::Frame;
 pub use polar::PolarAngle;
 pub use ray::{Ray, UnitBox};
 pub use sampler::Sampler;
 
 use glam::{Vec2, Vec3};
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::PI;
 
 /// 1/(4π): the density of the uniform distribution over directions, per steradian.
 pub const INV_4PI: f32 = 1.0 / (4.0 * PI);
@@ -21,7 +23,7 @@ pub const INV_4PI: f32 = 1.0 / (4.0 * PI);
 pub fn uniform_direction(u: Vec2) -> Vec3 {
     let z = 1.0 - 2.0 * u.x;
     let r = (1.0 - z * z).max(0.0).sqrt();
-    let (sin, cos) = (TAU * u.y).sin_cos();
+    let (sin, cos) = sin_cos_turns(u.y);
     Vec3::new(r * cos, r * sin, z)
 }
 
@@ -29,6 +31,6 @@ pub fn uniform_direction(u: Vec2) -> Vec3 {
 #[must_use]
 pub fn cosine_direction(u: Vec2) -> Vec3 {
     let r = u.x.sqrt();
-    let (sin, cos) = (TAU * u.y).sin_cos();
+    let (sin, cos) = sin_cos_turns(u.y);
     Vec3::new(r * cos, r * sin, (1.0 - u.x).max(0.0).sqrt())
 }

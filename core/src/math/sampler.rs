@@ -1,5 +1,6 @@
 //! Random numbers as a pure function of (seed, pixel, sample).
 
+use super::ln;
 use glam::Vec2;
 use rand_core::RngCore;
 use rand_pcg::Pcg32;
@@ -31,7 +32,8 @@ impl Sampler {
 
     /// An optical depth with density e^(−τ): −ln(1 − ξ).
     pub fn next_optical_depth(&mut self) -> f32 {
-        -(-self.next_1d()).ln_1p()
+        // 1 − ξ is exact: both are multiples of 2^−24.
+        -ln(1.0 - self.next_1d())
     }
 }
 

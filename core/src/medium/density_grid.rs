@@ -1,6 +1,8 @@
 //! A scalar density: σt(x, λ) = scale · density(x) · σ(λ), albedo(λ) the same everywhere.
 
-use super::{Coefficients, Grid, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
+use super::{
+    CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
+};
 use crate::math::Ray;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
@@ -11,11 +13,13 @@ use std::sync::Arc;
 pub struct DensityGrid {
     /// Density by place, trilinear.
     pub density: Arc<Grid<1>>,
+    /// Bounds of the density, by cell.
+    pub bounds: Arc<MajorantGrid<1>>,
     /// Extinction of density 1: scale · σ(λ), per scene unit.
     pub extinction: Spectrum,
     /// Albedo(λ).
     pub albedo: Spectrum,
-    /// Majorant relative to the largest extinction.
+    /// Majorant relative to the bounds.
     pub majorant: MajorantPolicy,
 }
 
@@ -23,8 +27,10 @@ pub struct DensityGrid {
 #[derive(Clone, Copy, Debug)]
 pub struct LocalDensityGrid<'a, const N: usize> {
     density: &'a Grid<1>,
+    bounds: &'a MajorantGrid<1>,
     extinction: Sampled<N>,
     albedo: Sampled<N>,
+    /// Majorant where the density is bounded by 1.
     majorant: Sampled<N>,
     policy: MajorantPolicy,
 }
@@ -33,12 +39,12 @@ impl Medium for DensityGrid {
     type Local<'a, const N: usize> = LocalDensityGrid<'a, N>;
 
     fn local<const N: usize, C: Components<N>>(&self, components: &C) -> LocalDensityGrid<'_, N> {
-        let per_density = self.majorant.global(components, &self.extinction);
         LocalDensityGrid {
             density: &self.density,
+            bounds: &self.bounds,
             extinction: components.evaluate(&self.extinction),
             albedo: components.evaluate(&self.albedo),
-            majorant: per_density * self.density.max()[0],
+            majorant: self.majorant.of(components, &self.extinction),
             policy: self.majorant,
         }
     }
@@ -46,16 +52,36 @@ impl Medium for DensityGrid {
 
 impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     type Segments<'a>
-        = std::iter::Once<MajorantSegment<N>>
+        = DensitySegments<'a, N>
     where
         Self: 'a;
 
+    #[inline]
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
         let [density] = self.density.at(point);
         Coefficients::new(self.extinction * density, self.albedo, majorant)
     }
 
-    fn segments<'a>(&'a self, _ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
-        std::iter::once(self.policy.segment(self.majorant, t0, t1))
+    #[inline]
+    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
+        DensitySegments { cells: self.bounds.walk(ray, t0, t1), majorant: self.majorant, policy: self.policy }
+    }
+}
+
+/// Majorants along a ray, in proportion to the bounds of a density.
+#[derive(Clone, Debug)]
+pub struct DensitySegments<'a, const N: usize> {
+    pub(super) cells: CellWalk<'a, 1>,
+    pub(super) majorant: Sampled<N>,
+    pub(super) policy: MajorantPolicy,
+}
+
+impl<const N: usize> Iterator for DensitySegments<'_, N> {
+    type Item = MajorantSegment<N>;
+
+    #[inline]
+    fn next(&mut self) -> Option<MajorantSegment<N>> {
+        let cell = self.cells.next()?;
+        Some(self.policy.segment(self.majorant * cell.bound[0], cell.t0, cell.t1))
     }
 }

@@ -74,6 +74,19 @@ impl<const C: usize> Grid<C> {
         })
     }
 
+    /// Where a point of the unit cube lies, in samples; beyond the outermost ones for some lattices.
+    #[must_use]
+    pub fn index_from_unit(&self, unit: Vec3) -> Vec3 {
+        unit * self.scale + self.offset
+    }
+
+    /// One sample.
+    #[must_use]
+    #[inline]
+    pub fn sample(&self, [x, y, z]: [usize; 3]) -> [f32; C] {
+        self.values[x + self.size[0] * (y + self.size[1] * z)]
+    }
+
     /// The largest value per channel; it bounds the interpolated field.
     #[must_use]
     pub fn max(&self) -> [f32; C] {

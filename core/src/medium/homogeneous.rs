@@ -32,7 +32,7 @@ impl Medium for Homogeneous {
         LocalHomogeneous {
             extinction: components.evaluate(&self.extinction),
             albedo: components.evaluate(&self.albedo),
-            majorant: self.majorant.global(components, &self.extinction),
+            majorant: self.majorant.of(components, &self.extinction),
             policy: self.majorant,
         }
     }

@@ -3,7 +3,7 @@
 use crate::spectrum::{Components, Sampled, Spectrum};
 use serde::{Deserialize, Serialize};
 
-/// The majorant μ̄ relative to the least upper bound of the extinction.
+/// The majorant μ̄: how finely the extinction is bounded from above, and how it relates to those bounds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MajorantDoc {
@@ -13,11 +13,15 @@ pub struct MajorantDoc {
     pub shared: bool,
     /// What happens where the extinction exceeds the majorant.
     pub when_exceeded: WhenExceeded,
+    /// Cells per axis of the grid of local bounds, 1 to 128; 1 is one global majorant. Absent: what is cheapest
+    /// to fly through.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<u32>,
 }
 
 impl Default for MajorantDoc {
     fn default() -> Self {
-        Self { factor: 1.0, shared: false, when_exceeded: WhenExceeded::Weighted }
+        Self { factor: 1.0, shared: false, when_exceeded: WhenExceeded::Weighted, resolution: None }
     }
 }
 
@@ -62,9 +66,9 @@ impl MajorantPolicy {
         Self { factor: doc.factor, shared: doc.shared, clamp_null: doc.when_exceeded == WhenExceeded::Clamp }
     }
 
-    /// The global majorant of a medium whose extinction is bounded by `bound(λ)`.
+    /// The majorant of a medium whose extinction is bounded by `bound(λ)`.
     #[must_use]
-    pub fn global<const N: usize, C: Components<N>>(&self, components: &C, bound: &Spectrum) -> Sampled<N> {
+    pub fn of<const N: usize, C: Components<N>>(&self, components: &C, bound: &Spectrum) -> Sampled<N> {
         if self.shared {
             // In RGB mode the wavelengths are the three channels.
             Sampled::splat(bound.largest() * self.factor)
@@ -73,8 +77,16 @@ impl MajorantPolicy {
         }
     }
 
-    /// The one segment of a global majorant.
+    /// The majorant where the extinction is bounded by `bound` at a path's components, and by `largest` at all.
     #[must_use]
+    #[inline]
+    pub fn of_bound<const N: usize>(&self, bound: Sampled<N>, largest: f32) -> Sampled<N> {
+        if self.shared { Sampled::splat(largest * self.factor) } else { bound * self.factor }
+    }
+
+    /// A segment of the walk.
+    #[must_use]
+    #[inline]
     pub fn segment<const N: usize>(&self, majorant: Sampled<N>, t0: f32, t1: f32) -> MajorantSegment<N> {
         MajorantSegment { t0, t1, majorant, clamp_null: self.clamp_null }
     }

@@ -7,18 +7,24 @@
 //! world. Rays are taken into medium space with their parameter `t` unchanged, so that distances,
 //! and with them coefficients per scene unit, keep their meaning under any placement.
 
+mod cell_walk;
 mod coefficients;
 mod density_grid;
 mod grid;
 mod homogeneous;
 mod majorant;
+mod majorant_grid;
+mod majorants;
 mod rgb_grids;
 
+pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
 pub use grid::{Grid, Lattice};
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
+pub use majorant_grid::MajorantGrid;
+pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 
 use crate::math::Ray;
@@ -47,7 +53,8 @@ pub trait LocalMedium<const N: usize> {
     /// majorant of the segment that the point lies in. One density look-up.
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N>;
 
-    /// Majorants along a ray in medium space, as adjoining segments that cover `t0..t1` in order.
+    /// Majorants along a ray in medium space, as segments within `t0..t1` in order. What they leave out
+    /// is empty.
     fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a>;
 }
 
@@ -60,4 +67,16 @@ pub enum AnyMedium {
     DensityGrid(DensityGrid),
     /// RGB grids for extinction, albedo or both.
     RgbGrids(RgbGrids),
+}
+
+impl AnyMedium {
+    /// Whether extinction and albedo are the same at every wavelength, everywhere.
+    #[must_use]
+    pub fn is_achromatic(&self) -> bool {
+        match self {
+            Self::Homogeneous(m) => m.extinction.is_flat() && m.albedo.is_flat(),
+            Self::DensityGrid(m) => m.extinction.is_flat() && m.albedo.is_flat(),
+            Self::RgbGrids(_) => false,
+        }
+    }
 }

@@ -4,9 +4,12 @@
 //! and sum to one. The map is linear, so interpolating colours and interpolating spectra agree, and the
 //! grid's largest components bound the extinction at every wavelength.
 
-use super::{Coefficients, Grid, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
+use super::density_grid::DensitySegments;
+use super::{
+    CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
+};
 use crate::math::Ray;
-use crate::spectrum::{Components, Quantity, Sampled, Spectrum, SpectrumDoc};
+use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
@@ -15,10 +18,10 @@ use std::sync::Arc;
 pub enum ExtinctionField {
     /// σt(λ) everywhere.
     Uniform(Spectrum),
-    /// density(x) · σ(λ).
-    Density(Arc<Grid<1>>, Spectrum),
-    /// scale · rgb(x).
-    Rgb(Arc<Grid<3>>, f32),
+    /// density(x) · σ(λ), with the density's bounds.
+    Density(Arc<Grid<1>>, Arc<MajorantGrid<1>>, Spectrum),
+    /// scale · rgb(x), with the grid's bounds.
+    Rgb(Arc<Grid<3>>, Arc<MajorantGrid<3>>, f32),
 }
 
 /// Where albedo comes from.
@@ -35,8 +38,6 @@ pub enum AlbedoField {
 pub struct RgbGrids {
     extinction: ExtinctionField,
     albedo: AlbedoField,
-    /// Bounds the extinction at every wavelength.
-    bound: Spectrum,
     majorant: MajorantPolicy,
 }
 
@@ -44,15 +45,7 @@ impl RgbGrids {
     /// Combines the two fields.
     #[must_use]
     pub fn new(extinction: ExtinctionField, albedo: AlbedoField, majorant: MajorantPolicy) -> Self {
-        let bound = match &extinction {
-            ExtinctionField::Uniform(sigma) => sigma.clone(),
-            ExtinctionField::Density(grid, sigma) => sigma.clone().scaled(grid.max()[0]),
-            ExtinctionField::Rgb(grid, scale) => {
-                let rgb = SpectrumDoc::Rgb(grid.max());
-                Spectrum::new(&rgb, Quantity::Coefficient).scaled(*scale)
-            }
-        };
-        Self { extinction, albedo, bound, majorant }
+        Self { extinction, albedo, majorant }
     }
 }
 
@@ -64,6 +57,7 @@ pub struct LocalRgbGrids<'a, const N: usize> {
     primaries: [Sampled<N>; 3],
     extinction: Sampled<N>,
     albedo: Sampled<N>,
+    /// Majorant where a density is bounded by 1; the scale of an RGB grid.
     majorant: Sampled<N>,
 }
 
@@ -78,8 +72,14 @@ impl Medium for RgbGrids {
 
     fn local<const N: usize, C: Components<N>>(&self, components: &C) -> LocalRgbGrids<'_, N> {
         let extinction = match &self.extinction {
-            ExtinctionField::Uniform(s) | ExtinctionField::Density(_, s) => components.evaluate(s),
-            ExtinctionField::Rgb(_, scale) => Sampled::splat(*scale),
+            ExtinctionField::Uniform(s) | ExtinctionField::Density(_, _, s) => components.evaluate(s),
+            ExtinctionField::Rgb(_, _, scale) => Sampled::splat(*scale),
+        };
+        let majorant = match &self.extinction {
+            ExtinctionField::Uniform(s) | ExtinctionField::Density(_, _, s) => {
+                self.majorant.of(components, s)
+            }
+            ExtinctionField::Rgb(..) => extinction,
         };
         let albedo = match &self.albedo {
             AlbedoField::Uniform(s) => components.evaluate(s),
@@ -90,22 +90,22 @@ impl Medium for RgbGrids {
             primaries: Vec3::AXES.map(|axis| components.upsample(axis)),
             extinction,
             albedo,
-            majorant: self.majorant.global(components, &self.bound),
+            majorant,
         }
     }
 }
 
 impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
     type Segments<'a>
-        = std::iter::Once<MajorantSegment<N>>
+        = Segments<'a, N>
     where
         Self: 'a;
 
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
         let extinction = match &self.medium.extinction {
             ExtinctionField::Uniform(_) => self.extinction,
-            ExtinctionField::Density(grid, _) => self.extinction * grid.at(point)[0],
-            ExtinctionField::Rgb(grid, _) => self.extinction * self.upsample(grid.at(point)),
+            ExtinctionField::Density(grid, ..) => self.extinction * grid.at(point)[0],
+            ExtinctionField::Rgb(grid, ..) => self.extinction * self.upsample(grid.at(point)),
         };
         let albedo = match &self.medium.albedo {
             AlbedoField::Uniform(_) => self.albedo,
@@ -116,7 +116,45 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         Coefficients::new(extinction, albedo, majorant)
     }
 
-    fn segments<'a>(&'a self, _ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
-        std::iter::once(self.medium.majorant.segment(self.majorant, t0, t1))
+    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
+        let policy = self.medium.majorant;
+        match &self.medium.extinction {
+            ExtinctionField::Uniform(_) => Segments::One(Some(policy.segment(self.majorant, t0, t1))),
+            ExtinctionField::Density(_, bounds, _) => Segments::Density(DensitySegments {
+                cells: bounds.walk(ray, t0, t1),
+                majorant: self.majorant,
+                policy,
+            }),
+            ExtinctionField::Rgb(_, bounds, _) => Segments::Rgb(bounds.walk(ray, t0, t1), self),
+        }
+    }
+}
+
+/// Majorants along a ray, from whichever field the extinction comes.
+#[derive(Clone, Debug)]
+pub enum Segments<'a, const N: usize> {
+    /// The same everywhere.
+    One(Option<MajorantSegment<N>>),
+    /// In proportion to the bounds of a density.
+    Density(DensitySegments<'a, N>),
+    /// From the bounds of three channels.
+    Rgb(CellWalk<'a, 3>, &'a LocalRgbGrids<'a, N>),
+}
+
+impl<const N: usize> Iterator for Segments<'_, N> {
+    type Item = MajorantSegment<N>;
+
+    fn next(&mut self) -> Option<MajorantSegment<N>> {
+        match self {
+            Self::One(segment) => segment.take(),
+            Self::Density(segments) => segments.next(),
+            Self::Rgb(cells, local) => {
+                let cell = cells.next()?;
+                let policy = local.medium.majorant;
+                let largest = cell.bound.iter().fold(0.0f32, |a, b| a.max(*b)) * local.majorant.hero();
+                let majorant = policy.of_bound(local.majorant * local.upsample(cell.bound), largest);
+                Some(policy.segment(majorant, cell.t0, cell.t1))
+            }
+        }
     }
 }

@@ -18,7 +18,6 @@ use glam::{Vec2, Vec3};
 use henyey_greenstein::HenyeyGreenstein;
 use isotropic::Isotropic;
 use rayleigh::Rayleigh;
-use std::f32::consts::TAU;
 use two_lobe::TwoLobe;
 
 /// The contract of one phase function.
@@ -89,7 +88,7 @@ impl Phase {
     #[must_use]
     pub fn sample(&self, omega_in: Vec3, u: Vec2) -> (Vec3, f32) {
         let theta = each!(self, lobe => lobe.sample(u.x));
-        let direction = Frame::about(omega_in).polar(theta, TAU * u.y);
+        let direction = Frame::about(omega_in).polar(theta, u.y);
         (direction, self.at(theta))
     }
 }

@@ -8,7 +8,8 @@ use crate::light::{
     Environment, EnvironmentMap, Light, LightKind, Panorama, RectangleLight, SphereLight, Sun,
 };
 use crate::medium::{
-    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantPolicy, RgbGrids,
+    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantGrid, MajorantPolicy,
+    Majorants, RgbGrids,
 };
 use crate::phase::Phase;
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
@@ -21,6 +22,8 @@ use std::sync::Arc;
 pub struct PlacedGrid<const C: usize> {
     /// The samples.
     pub grid: Arc<Grid<C>>,
+    /// Their local bounds.
+    pub majorants: Arc<Majorants<C>>,
     /// Takes the unit cube to the box that the file says.
     pub object_from_unit: Affine3A,
     /// Whether the file says where its box stands, as OpenVDB and `.vol` do and `.npy` does not.
@@ -98,7 +101,13 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         notices.push("No light: the image is black. Add a light.".into());
     }
 
+    let flat_surfaces = surfaces.iter().all(|surface: &Surface| match &surface.role {
+        Role::Diffuse(albedo) => albedo.is_flat(),
+        Role::Light(_) => true,
+    });
+
     Ok(Scene {
+        achromatic: medium.is_achromatic() && flat_surfaces,
         camera: Camera::new(&doc.camera, doc.film.width, doc.film.height),
         width: doc.film.width,
         height: doc.film.height,
@@ -162,18 +171,20 @@ fn build_medium(
         DensityDoc::Grid(grid) => {
             let read = resources.scalar_grid(grid).map_err(at("medium.density"))?;
             describe(&mut info, &read.grid);
-            notices.extend(read.notices);
+            notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
             density_box = read.says_where.then_some(placed);
-            ExtinctionField::Density(read.grid, sigma)
+            let bounds = bounds_of(&read, doc, &mut info, sigma.rgb().element_sum() / 3.0);
+            ExtinctionField::Density(read.grid, bounds, sigma)
         }
         DensityDoc::RgbGrid(grid) => {
             let read = resources.rgb_grid(grid).map_err(at("medium.density"))?;
             describe(&mut info, &read.grid);
-            notices.extend(read.notices);
+            notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
             density_box = read.says_where.then_some(placed);
-            ExtinctionField::Rgb(read.grid, doc.scale)
+            let bounds = bounds_of(&read, doc, &mut info, doc.scale);
+            ExtinctionField::Rgb(read.grid, bounds, doc.scale)
         }
     };
     let albedo = match &doc.albedo_grid {
@@ -200,24 +211,46 @@ fn build_medium(
     info.majorant = doc.majorant.factor
         * match &extinction {
             ExtinctionField::Uniform(sigma) => sigma.largest(),
-            ExtinctionField::Density(grid, sigma) => sigma.largest() * grid.max()[0],
-            ExtinctionField::Rgb(_, scale) => info.max_density * scale,
+            ExtinctionField::Density(grid, _, sigma) => sigma.largest() * grid.max()[0],
+            ExtinctionField::Rgb(_, _, scale) => info.max_density * scale,
         };
-    info.tightness = if info.max_density > 0.0 {
-        info.mean_density / (info.max_density * doc.majorant.factor)
-    } else {
-        1.0
+    let mean_bound = match &extinction {
+        ExtinctionField::Uniform(_) => 1.0,
+        ExtinctionField::Density(_, bounds, _) => bounds.mean_bound(),
+        ExtinctionField::Rgb(_, bounds, _) => bounds.mean_bound(),
     };
+    info.tightness =
+        if mean_bound > 0.0 { info.mean_density / (mean_bound * doc.majorant.factor) } else { 1.0 };
     let medium = match (extinction, albedo) {
         (ExtinctionField::Uniform(extinction), AlbedoField::Uniform(albedo)) => {
             AnyMedium::Homogeneous(Homogeneous { extinction, albedo, majorant })
         }
-        (ExtinctionField::Density(density, extinction), AlbedoField::Uniform(albedo)) => {
-            AnyMedium::DensityGrid(DensityGrid { density, extinction, albedo, majorant })
+        (ExtinctionField::Density(density, bounds, extinction), AlbedoField::Uniform(albedo)) => {
+            AnyMedium::DensityGrid(DensityGrid { density, bounds, extinction, albedo, majorant })
         }
         (extinction, albedo) => AnyMedium::RgbGrids(RgbGrids::new(extinction, albedo, majorant)),
     };
     Ok((medium, placed, info))
+}
+
+/// The majorant cells that a document asks for, or the cheapest ones for a grid whose values stand for
+/// `extinction` each.
+fn bounds_of<const C: usize>(
+    placed: &PlacedGrid<C>,
+    doc: &MediumDoc,
+    info: &mut SceneInfo,
+    extinction: f32,
+) -> Arc<MajorantGrid<C>> {
+    let world_from_unit = placement::world_from_unit(&doc.placement, placed.object_from_unit).matrix3;
+    let edge =
+        (world_from_unit.x_axis.length() + world_from_unit.y_axis.length() + world_from_unit.z_axis.length())
+            / 3.0;
+    let bounds = match doc.majorant.resolution {
+        Some(cells) => placed.majorants.at(cells),
+        None => placed.majorants.cheapest(extinction * edge * doc.majorant.factor),
+    };
+    info.majorant_cells = Some(bounds.cells());
+    bounds
 }
 
 fn describe<const C: usize>(info: &mut SceneInfo, grid: &Grid<C>) {

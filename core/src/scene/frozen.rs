@@ -27,6 +27,8 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// Every light.
     pub lights: Vec<Light>,
+    /// Whether neither the medium nor a surface tells one wavelength from another.
+    pub achromatic: bool,
     /// Numbers that people want to see.
     pub info: SceneInfo,
     /// What building repaired or wants to be known.
@@ -44,7 +46,10 @@ pub struct SceneInfo {
     pub mean_density: f32,
     /// Largest majorant over wavelengths, per scene unit.
     pub majorant: f32,
-    /// Mean extinction over the majorant: the share of collisions in the box that are real.
+    /// Cells per axis of the grid of local majorants.
+    pub majorant_cells: Option<usize>,
+    /// Mean extinction over mean majorant: the share of collisions along a straight line through the box
+    /// that are real.
     pub tightness: f32,
     /// Lowest corner of the medium's bounds in the world.
     pub world_min: [f32; 3],

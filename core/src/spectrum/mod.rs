@@ -6,16 +6,22 @@
 
 mod components;
 mod doc;
+mod grey;
 mod observer;
 pub mod presets;
+mod rgb_channels;
 mod sampled;
 mod shape;
+mod wavelengths;
 
-pub use components::{Components, RgbChannels, Wavelengths};
+pub use components::{Components, Radiance};
 pub use doc::{ControlPoint, Outside, SpectrumDoc};
+pub use grey::{FilmColour, Grey};
 pub use observer::{response, wavelength_colour};
+pub use rgb_channels::RgbChannels;
 pub use sampled::Sampled;
 pub use shape::{Quantity, Spectrum};
+pub use wavelengths::{WavelengthSampling, Wavelengths};
 
 /// The shortest wavelength that is rendered, in nanometres.
 pub const LAMBDA_MIN_NM: f32 = 360.0;

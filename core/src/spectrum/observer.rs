@@ -102,6 +102,37 @@ pub fn wavelength_colour(lambda_nm: f32) -> [f32; 3] {
     (lifted / lifted.max_element().max(1e-9) * visible).to_array()
 }
 
+/// ∫ response(λ) f(λ) dλ, for an `f` that is a polynomial of degree at most 4 between the rows of the sensor's
+/// table and the wavelengths `cuts`: exact but for rounding. Values at the cuts themselves are not asked for.
+pub(super) fn film_colour(f: impl Fn(f32) -> f32, cuts: impl Iterator<Item = f32>) -> Vec3 {
+    let rows = (0..ROWS).map(|i| LAMBDA_MIN_NM + STEP_NM * i as f32);
+    let inside = cuts.filter(|l| (LAMBDA_MIN_NM..LAMBDA_MAX_NM).contains(l));
+    let mut nodes: Vec<f32> = rows.chain(inside).collect();
+    nodes.sort_by(f32::total_cmp);
+    // Gauss and Legendre's rule with three points.
+    let offset = 0.6f32.sqrt();
+    let rule = [(-offset, 5.0 / 18.0), (0.0, 8.0 / 18.0), (offset, 5.0 / 18.0)];
+    let mut sum = Vec3::ZERO;
+    for pair in nodes.windows(2) {
+        let (middle, width) = (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]);
+        for (x, weight) in rule {
+            let lambda = middle + 0.5 * width * x;
+            sum += response(lambda) * (f(lambda) * weight * width);
+        }
+    }
+    sum
+}
+
+static FILM_FROM_RGB: LazyLock<Mat3> = LazyLock::new(|| {
+    let column = |i: usize| film_colour(|l| basis(l)[i] * daylight(l), std::iter::empty());
+    Mat3::from_cols(column(0), column(1), column(2))
+});
+
+/// What radiance that is given as linear sRGB shows as, over all wavelengths: the same to 0.3 %.
+pub(super) fn film_colour_of_rgb(rgb: Vec3) -> Vec3 {
+    *FILM_FROM_RGB * rgb
+}
+
 /// ∫ f(λ) dλ over the rendered range by the midpoint rule at 1 nm.
 pub(super) fn integrate(f: impl Fn(f32) -> Vec3) -> Vec3 {
     let mut sum = Vec3::ZERO;

@@ -1,5 +1,6 @@
 //! Values at a path's components.
 
+use crate::math;
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub};
 
 /// One value for each of a path's `N` components: 4 wavelengths, 3 colour channels, or a single one.
@@ -53,6 +54,13 @@ impl<const N: usize> Sampled<N> {
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.0.iter().all(|x| *x == 0.0)
+    }
+
+    /// e to the power of every component.
+    #[must_use]
+    #[inline]
+    pub fn exp(self) -> Self {
+        self.map(math::exp)
     }
 
     /// Absolute values.

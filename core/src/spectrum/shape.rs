@@ -20,6 +20,8 @@ pub enum Quantity {
 pub struct Spectrum {
     shape: Shape,
     rgb: Vec3,
+    /// What it shows as on the film of spectral mode, were it radiance.
+    film: Vec3,
 }
 
 #[derive(Clone, Debug)]
@@ -48,24 +50,28 @@ impl Spectrum {
                 Quantity::Radiance => Shape::RgbRadiance((*rgb).into()),
             },
         };
+        let shape = shape.simplified();
         let rgb = match &shape {
             Shape::Constant(value) => Vec3::splat(*value),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb,
             Shape::Points { .. } => band_means(&shape),
         };
-        Self { shape, rgb }
+        let film = shape.film_colour();
+        Self { shape, rgb, film }
     }
 
     /// The same value at every wavelength.
     #[must_use]
     pub fn constant(value: f32) -> Self {
-        Self { shape: Shape::Constant(value), rgb: Vec3::splat(value) }
+        let shape = Shape::Constant(value);
+        Self { film: shape.film_colour(), shape, rgb: Vec3::splat(value) }
     }
 
     /// Every value multiplied by `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f32) -> Self {
         self.rgb *= factor;
+        self.film *= factor;
         match &mut self.shape {
             Shape::Constant(value) => *value *= factor,
             Shape::Points { points, .. } => points.iter_mut().for_each(|p| p.value *= factor),
@@ -84,6 +90,18 @@ impl Spectrum {
     #[must_use]
     pub fn rgb(&self) -> Vec3 {
         self.rgb
+    }
+
+    /// Whether it has the same value at every wavelength, and in every component of RGB mode.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        matches!(self.shape, Shape::Constant(_))
+    }
+
+    /// As radiance: its linear sRGB on the film of spectral mode, ∫ response(λ) Le(λ) dλ.
+    #[must_use]
+    pub fn film_colour(&self) -> Vec3 {
+        self.film
     }
 
     /// The largest value over the rendered wavelengths.
@@ -120,6 +138,27 @@ impl Spectrum {
 }
 
 impl Shape {
+    /// A constant, where it is one in other words.
+    fn simplified(self) -> Self {
+        match self {
+            Self::Points { points, outside: Outside::Hold }
+                if points.windows(2).all(|p| p[0].value == p[1].value) =>
+            {
+                Self::Constant(points.first().map_or(0.0, |p| p.value))
+            }
+            Self::Rgb(rgb) if rgb == Vec3::splat(rgb.x) => Self::Constant(rgb.x),
+            other => other,
+        }
+    }
+
+    fn film_colour(&self) -> Vec3 {
+        let cuts = match self {
+            Self::Points { points, .. } => points.iter().map(|p| p.lambda_nm).collect(),
+            Self::Constant(_) | Self::Rgb(_) | Self::RgbRadiance(_) => Vec::new(),
+        };
+        observer::film_colour(|lambda| self.at(lambda), cuts.into_iter())
+    }
+
     fn at(&self, lambda_nm: f32) -> f32 {
         match self {
             Self::Constant(value) => *value,

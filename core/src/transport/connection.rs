@@ -7,15 +7,15 @@ use super::{PathWeights, Trace, Vertex, World};
 use crate::light::Emitter;
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::Components;
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
-pub struct Connection<const N: usize> {
+pub struct Connection<R, const N: usize> {
     /// Weights of the whole path, camera to light, as made by the connection.
     pub weights: PathWeights<N>,
     /// Emitted radiance.
-    pub radiance: Sampled<N>,
+    pub radiance: R,
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
@@ -25,7 +25,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         vertex: &Vertex,
         path: &PathWeights<N>,
         trace: &mut Trace<'_>,
-    ) -> Option<Connection<N>> {
+    ) -> Option<Connection<C::Radiance, N>> {
         let lights = &self.scene.lights;
         let index = (trace.sampler.next_1d() * lights.len() as f32) as usize;
         let u = trace.sampler.next_2d();

@@ -7,6 +7,7 @@ use super::{Collision, PathWeights, Trace};
 use crate::math::{Ray, UnitBox};
 use crate::medium::{LocalMedium, MajorantSegment};
 use crate::scene::{Absorption, Scene};
+use crate::spectrum::Sampled;
 
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
@@ -52,21 +53,26 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             return None;
         }
         let mut optical_depth = trace.sampler.next_optical_depth();
+        let mut passed = Sampled::ZERO;
         while let Some(segment) = self.segment {
+            // Stretches between segments are empty.
+            let t = self.t.max(segment.t0);
             let hero = segment.majorant.hero();
-            let t = self.t + optical_depth / hero;
-            if hero > 0.0 && t < segment.t1 {
-                weights.pass(segment.majorant, t - self.t);
-                self.t = t;
+            let in_segment = hero * (segment.t1 - t);
+            if optical_depth < in_segment {
+                let distance = optical_depth / hero;
+                weights.pass(passed + segment.majorant * distance);
+                self.t = t + distance;
                 trace.lookups += 1;
-                let coefficients = self.medium.coefficients(self.ray_in_medium.at(t), &segment);
-                return Some(Collision::new(self.ray_in_world.at(t), coefficients, self.absorption));
+                let coefficients = self.medium.coefficients(self.ray_in_medium.at(self.t), &segment);
+                return Some(Collision::new(self.ray_in_world.at(self.t), coefficients, self.absorption));
             }
-            weights.pass(segment.majorant, segment.t1 - self.t);
-            optical_depth -= hero * (segment.t1 - self.t);
+            optical_depth -= in_segment;
+            passed += segment.majorant * (segment.t1 - t);
             self.t = segment.t1;
             self.segment = self.segments.as_mut().and_then(Iterator::next);
         }
+        weights.pass(passed);
         None
     }
 }

@@ -21,7 +21,7 @@
 //! alone: weights that leave them out of *every* technique still sum to one.
 
 use super::Collision;
-use crate::spectrum::Sampled;
+use crate::spectrum::{Radiance, Sampled};
 
 /// Contribution and densities of a path, divided by the density with which it was made.
 #[derive(Clone, Copy, Debug)]
@@ -29,22 +29,44 @@ pub struct PathWeights<const N: usize> {
     contribution: Sampled<N>,
     uni: Sampled<N>,
     nee: Sampled<N>,
+    /// Optical depth by the majorants beyond the hero's, which all three still have to be attenuated by.
+    pending: Sampled<N>,
 }
+
+/// The most optical depth that waits: e^(±16) times what an event does to a weight stays within f32.
+const MOST_PENDING: f32 = 16.0;
 
 impl<const N: usize> PathWeights<N> {
     /// A path that has just left the camera.
-    pub const CAMERA: Self = Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE };
+    pub const CAMERA: Self =
+        Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE, pending: Sampled::ZERO };
 
-    /// A stretch of `distance` without collision under a majorant μ̄: e^(−μ̄ᵢ t) for all.
+    /// A stretch without collision, of optical depth μ̄ᵢ t by the majorants: e^(−μ̄ᵢ t) for all. The
+    /// exponential is taken once for many stretches, when a value is asked for.
     #[inline]
-    pub fn pass(&mut self, majorant: Sampled<N>, distance: f32) {
-        if majorant == Sampled::splat(majorant.hero()) {
+    pub fn pass(&mut self, optical_depth: Sampled<N>) {
+        if N == 1 {
             return;
         }
-        let ratio = majorant.map(|m| (-(m - majorant.hero()) * distance).exp());
-        self.contribution *= ratio;
-        self.uni *= ratio;
-        self.nee *= ratio;
+        self.pending += optical_depth - Sampled::splat(optical_depth.hero());
+        if self.pending.abs().max_component() > MOST_PENDING {
+            *self = self.settled();
+        }
+    }
+
+    /// The same weights with nothing pending.
+    #[inline]
+    fn settled(&self) -> Self {
+        if N == 1 {
+            return *self;
+        }
+        let ratio = (-self.pending).exp();
+        Self {
+            contribution: self.contribution * ratio,
+            uni: self.uni * ratio,
+            nee: self.nee * ratio,
+            pending: Sampled::ZERO,
+        }
     }
 
     /// A collision that the walk has drawn as null. Next-event estimation takes every collision of a
@@ -96,7 +118,12 @@ impl<const N: usize> PathWeights<N> {
     #[inline]
     pub fn connect(&self, density: f32, light_density: f32) -> Self {
         let ratio = density / light_density;
-        Self { contribution: self.contribution * ratio, uni: self.uni * ratio, nee: self.uni }
+        Self {
+            contribution: self.contribution * ratio,
+            uni: self.uni * ratio,
+            nee: self.uni,
+            pending: self.pending,
+        }
     }
 
     /// Continues with probability `q`.
@@ -109,7 +136,8 @@ impl<const N: usize> PathWeights<N> {
     /// the same whichever component is the hero.
     #[must_use]
     pub fn throughput(&self) -> f32 {
-        self.contribution.abs().max_component() / self.uni.mean()
+        let now = self.settled();
+        now.contribution.abs().max_component() / now.uni.mean()
     }
 
     /// Whether nothing can come of the path any more.
@@ -121,34 +149,37 @@ impl<const N: usize> PathWeights<N> {
 
     /// The path's value if only the hero is ever used: f₁ / p₁, and zero elsewhere.
     #[must_use]
-    pub fn hero_only(&self, radiance: Sampled<N>) -> Sampled<N> {
-        let mut value = Sampled::ZERO;
-        value.0[0] = radiance.hero() * self.contribution.hero();
-        value
+    pub fn hero_only<R: Radiance<N>>(&self, radiance: R) -> R {
+        let mut weight = Sampled::ZERO;
+        weight.0[0] = self.contribution.hero();
+        radiance * weight
     }
 
     /// The path's value if only unidirectional sampling makes it: f_j / mean p_uni.
     #[must_use]
-    pub fn unidirectional(&self, radiance: Sampled<N>) -> Sampled<N> {
-        radiance * self.contribution * (1.0 / self.uni.mean())
+    pub fn unidirectional<R: Radiance<N>>(&self, radiance: R) -> R {
+        let now = self.settled();
+        radiance * (now.contribution * (1.0 / now.uni.mean()))
     }
 
     /// A connection's value if only connections make such paths: f_j / mean p_nee.
     #[must_use]
-    pub fn connected_only(&self, radiance: Sampled<N>) -> Sampled<N> {
-        radiance * self.contribution * (1.0 / self.nee.mean())
+    pub fn connected_only<R: Radiance<N>>(&self, radiance: R) -> R {
+        let now = self.settled();
+        radiance * (now.contribution * (1.0 / now.nee.mean()))
     }
 
     /// The value of a walk that has met a light which light sampling would have drawn with
     /// `light_density`: f_j / mean (p_uni + p_nee).
     #[must_use]
-    pub fn balanced(&self, radiance: Sampled<N>, light_density: f32) -> Sampled<N> {
-        radiance * self.contribution * (1.0 / (self.uni + self.nee * light_density).mean())
+    pub fn balanced<R: Radiance<N>>(&self, radiance: R, light_density: f32) -> R {
+        let now = self.settled();
+        radiance * (now.contribution * (1.0 / (now.uni + now.nee * light_density).mean()))
     }
 
     /// The value of a connection: f_j / mean (p_uni + p_nee). Its light density is in P already.
     #[must_use]
-    pub fn connected_balanced(&self, radiance: Sampled<N>) -> Sampled<N> {
+    pub fn connected_balanced<R: Radiance<N>>(&self, radiance: R) -> R {
         self.balanced(radiance, 1.0)
     }
 }

@@ -134,7 +134,7 @@ impl<const N: usize> Events<N> {
 
     fn apply(&self, path: &mut PathWeights<N>, step: &Step<N>) {
         match step {
-            Step::Pass { majorant, distance } => path.pass(Sampled(*majorant), *distance),
+            Step::Pass { majorant, distance } => path.pass(Sampled(*majorant) * *distance),
             Step::Null(place) => path.null(&place.collision(self.absorption)),
             Step::Scatter(place, _) => path.scatter(&place.collision(self.absorption)),
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
@@ -177,7 +177,7 @@ impl<const N: usize> Events<N> {
         let mut link = path.connect(density, self.light);
         for step in &self.after {
             match step {
-                Step::Pass { majorant, distance } => link.pass(Sampled(*majorant), *distance),
+                Step::Pass { majorant, distance } => link.pass(Sampled(*majorant) * *distance),
                 Step::Null(place) => link.null_by_ratio(&place.collision(self.absorption)),
                 other => panic!("{other:?} on the way to a light"),
             }

@@ -153,7 +153,7 @@ fn a_hundred_thousand_events_stay_finite() {
         let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
         let mut path = PathWeights::CAMERA;
         for _ in 0..100_000 {
-            path.pass(majorant, trace.sampler.next_optical_depth() / majorant.hero());
+            path.pass(majorant * (trace.sampler.next_optical_depth() / majorant.hero()));
             let link = if collision.draw_event(&mut trace) == Event::Scattering {
                 path.scatter(&collision);
                 let link = path.connect(0.08, 40.0);

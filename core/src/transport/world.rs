@@ -53,9 +53,9 @@ impl<'a> Trace<'a> {
 
 /// Light that a ray meets.
 #[derive(Clone, Copy, Debug)]
-pub struct Arrival<const N: usize> {
+pub struct Arrival<R> {
     /// Emitted radiance.
-    pub radiance: Sampled<N>,
+    pub radiance: R,
     /// Density with which light sampling, including the choice of the light, would have drawn the
     /// ray's direction at its origin; per steradian.
     pub density: f32,
@@ -93,7 +93,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         ray: &Ray,
         end: &NearestSurface,
         from_camera: bool,
-    ) -> impl Iterator<Item = Arrival<N>> {
+    ) -> impl Iterator<Item = Arrival<C::Radiance>> {
         let (ray, t, role, normal) = (*ray, end.t(), end.role(), end.normal());
         let count = self.scene.lights.len() as f32;
         self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {

@@ -1,5 +1,6 @@
 //! Estimator and sampling limits as edited.
 
+use crate::spectrum::WavelengthSampling;
 use serde::{Deserialize, Serialize};
 
 /// How light transport is estimated.
@@ -10,6 +11,8 @@ pub struct EstimatorDoc {
     pub id: String,
     /// What a path's components stand for.
     pub mode: Mode,
+    /// How spectral mode draws the hero's wavelength.
+    pub wavelengths: WavelengthSampling,
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
     /// Most segments of a path between camera, scattering vertices and light: 1 is emission only, 2 is
@@ -27,6 +30,7 @@ impl Default for EstimatorDoc {
         Self {
             id: "uni-nee-mis".into(),
             mode: Mode::Spectral,
+            wavelengths: WavelengthSampling::Sensor,
             absorption: Absorption::Weighted,
             max_depth: None,
             roulette_depth: None,

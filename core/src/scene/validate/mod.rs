@@ -3,6 +3,7 @@
 mod compare;
 
 use super::{LightDoc, MediumDoc, ObjectDoc, PhaseDoc, SceneDoc};
+use crate::medium::MAX_MAJORANT_CELLS;
 use crate::spectrum::SpectrumDoc;
 use glam::Vec3;
 use std::fmt;
@@ -181,6 +182,13 @@ fn medium(c: &mut Checker, doc: &MediumDoc) {
         "medium.majorant.factor",
         format!("is {}; it lies between 0.01 and 1000, 1 is tight", doc.majorant.factor),
     );
+    if let Some(cells) = doc.majorant.resolution {
+        c.check(
+            (1..=MAX_MAJORANT_CELLS).contains(&cells),
+            "medium.majorant.resolution",
+            format!("is {cells}; there are 1 to {MAX_MAJORANT_CELLS} cells per axis"),
+        );
+    }
     match doc.phase {
         PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
         PhaseDoc::HenyeyGreenstein { g } => c.range("medium.phase.g", g, -0.999, 0.999),

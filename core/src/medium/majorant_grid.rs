@@ -1,0 +1,149 @@
+//! Local upper bounds of a field: one per cell of a coarse lattice over the unit cube.
+
+use super::{CellWalk, Grid};
+use crate::math::Ray;
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// How far beyond its own cell a bound holds, in samples: a point on a ray may round across a face.
+const REACH: f32 = 1e-3;
+
+/// Bounds of an interpolated field over `n³` cells of the unit cube, x fastest, then y, then z.
+#[derive(Clone, Debug)]
+pub struct MajorantGrid<const C: usize> {
+    cells: usize,
+    bound: Vec<[f32; C]>,
+    /// Mean of the field over each cell, largest channel.
+    mean: Vec<f32>,
+}
+
+impl<const C: usize> MajorantGrid<C> {
+    /// Bounds the trilinear field of `grid` over every cell, neighbouring samples included.
+    ///
+    /// Trilinear interpolation is linear along every axis, so it is largest at the samples and where the
+    /// cell's faces cut the lattice; taking the maximum axis by axis never falls below that, and exceeds
+    /// it by less than the largest neighbouring sample does.
+    #[must_use]
+    pub fn new(grid: &Grid<C>, cells: usize) -> Self {
+        let cells = cells.max(1);
+        let spans: [Vec<Span>; 3] =
+            std::array::from_fn(|axis| (0..cells).map(|i| Span::of_cell(grid, axis, i, cells)).collect());
+        let (bound, mean) = (0..cells * cells)
+            .into_par_iter()
+            .flat_map_iter(|yz| {
+                let (y, z) = (&spans[1][yz % cells], &spans[2][yz / cells]);
+                spans[0].iter().map(move |x| summary(grid, [x, y, z]))
+            })
+            .unzip();
+        Self { cells, bound, mean }
+    }
+
+    /// Half as many cells per axis, each the largest of eight; `None` for an odd number of cells.
+    #[must_use]
+    pub fn halved(&self) -> Option<Self> {
+        if !self.cells.is_multiple_of(2) {
+            return None;
+        }
+        let half = self.cells / 2;
+        let eight = |cell: usize| {
+            let at = [cell % half, cell / half % half, cell / half / half];
+            (0..8).map(move |corner: usize| {
+                let [x, y, z] = std::array::from_fn(|axis| 2 * at[axis] + (corner >> axis & 1));
+                x + self.cells * (y + self.cells * z)
+            })
+        };
+        let all = 0..half * half * half;
+        let largest = |cell| {
+            eight(cell).fold([0.0f32; C], |max, i| std::array::from_fn(|c| max[c].max(self.bound[i][c])))
+        };
+        let mean = |cell| eight(cell).map(|i| self.mean[i]).sum::<f32>() / 8.0;
+        Some(Self { cells: half, bound: all.clone().map(largest).collect(), mean: all.map(mean).collect() })
+    }
+
+    /// Cells per axis.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.cells
+    }
+
+    /// The bound of cell number `x + n (y + n z)`.
+    #[must_use]
+    #[inline]
+    pub fn bound(&self, cell: usize) -> [f32; C] {
+        self.bound[cell]
+    }
+
+    /// Mean of the field over a cell, largest channel.
+    #[must_use]
+    pub fn mean(&self, cell: usize) -> f32 {
+        self.mean[cell]
+    }
+
+    /// Mean over all cells of the bound's largest channel: what a straight line through the box meets.
+    #[must_use]
+    pub fn mean_bound(&self) -> f32 {
+        let largest = |bound: &[f32; C]| f64::from(bound.iter().fold(0.0f32, |a, b| a.max(*b)));
+        (self.bound.iter().map(largest).sum::<f64>() / self.bound.len() as f64) as f32
+    }
+
+    /// The cells that a ray crosses between `t0` and `t1`, in order.
+    #[must_use]
+    pub fn walk(&self, ray: &Ray, t0: f32, t1: f32) -> CellWalk<'_, C> {
+        CellWalk::new(self, ray, t0, t1)
+    }
+}
+
+/// Where a cell lies along one axis, in samples.
+struct Span {
+    /// The cell and a little more, held inside the lattice.
+    from: f32,
+    to: f32,
+    /// Samples that are needed to interpolate in it.
+    first: usize,
+    last: usize,
+}
+
+impl Span {
+    fn of_cell<const C: usize>(grid: &Grid<C>, axis: usize, cell: usize, cells: usize) -> Self {
+        let last = (grid.size()[axis] - 1) as f32;
+        let index = |edge: usize| grid.index_from_unit(Vec3::splat(edge as f32 / cells as f32))[axis];
+        let from = (index(cell) - REACH).clamp(0.0, last);
+        let to = (index(cell + 1) + REACH).clamp(0.0, last);
+        Self { from, to, first: from.floor() as usize, last: to.ceil() as usize }
+    }
+
+    /// The largest value of the piecewise linear function through `values` (samples `first..=last`).
+    fn largest(&self, values: impl Fn(usize) -> f32) -> f32 {
+        let at = |x: f32| {
+            let i = (x as usize).min(self.last);
+            let (a, b) = (values(i), values((i + 1).min(self.last)));
+            a + (b - a) * (x - i as f32)
+        };
+        let inside = (self.from.ceil() as usize)..=(self.to.floor() as usize);
+        inside.map(&values).fold(at(self.from).max(at(self.to)), f32::max)
+    }
+}
+
+/// Bound and mean of one cell.
+fn summary<const C: usize>(grid: &Grid<C>, [x, y, z]: [&Span; 3]) -> ([f32; C], f32) {
+    let mut bound = [0.0f32; C];
+    let mut mean = 0.0f32;
+    for c in 0..C {
+        let mut sum = 0.0f32;
+        let mut planes = Vec::with_capacity(z.last - z.first + 1);
+        for k in z.first..=z.last {
+            let mut rows = Vec::with_capacity(y.last - y.first + 1);
+            for j in y.first..=y.last {
+                let row: Vec<f32> = (x.first..=x.last).map(|i| grid.sample([i, j, k])[c]).collect();
+                sum += row.iter().sum::<f32>();
+                rows.push(x.largest(|i| row[i - x.first]));
+            }
+            planes.push(y.largest(|j| rows[j - y.first]));
+        }
+        bound[c] = z.largest(|k| planes[k - z.first]);
+        let samples = (x.last - x.first + 1) * (y.last - y.first + 1) * (z.last - z.first + 1);
+        mean = mean.max(sum / samples as f32);
+    }
+    // Rounding in the interpolation itself is relative to the values.
+    (bound.map(|b| b * (1.0 + 4.0 * f32::EPSILON)), mean)
+}
