@@ -7,7 +7,7 @@ mod line;
 use glam::Vec3;
 use line::Line;
 use majorant_core::io::{Library, scene_file};
-use majorant_core::math::{Ray, Sampler};
+use majorant_core::math::{BoxRay, Ray, Sampler};
 use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
 use majorant_core::scene::{Absorption, Scene, build};
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
@@ -136,11 +136,9 @@ fn depth_by_cells<L: LocalMedium<N>, const N: usize>(
     line: &Line,
 ) -> impl Fn(f64) -> f64 {
     let entry = line.ray.at(line.enter as f32);
-    let ray = Ray {
-        origin: scene.medium_from_world.transform_point3(entry),
-        direction: scene.medium_from_world.transform_vector3(line.ray.direction),
-    };
-    let cells: Vec<_> = medium.segments(&ray, 0.0, (line.exit - line.enter) as f32).collect();
+    let ray = Ray { origin: entry, direction: line.ray.direction };
+    let (_, ray) = BoxRay::enter(&ray, &scene.medium_from_world, f32::INFINITY).unwrap();
+    let cells: Vec<_> = medium.segments(&ray).collect();
     let enter = line.enter;
     move |t| {
         let spent = cells.iter().map(|cell| {
@@ -201,8 +199,8 @@ impl LocalMedium<3> for Stretches {
         Coefficients::new(segment.majorant * EXTINGUISHED, Sampled::splat(0.5), segment)
     }
 
-    fn segments<'a>(&'a self, _ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
-        let at = |cut: f32| t0 + (t1 - t0) * cut;
+    fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
+        let at = |cut: f32| ray.t_end * cut;
         let stretch = |(cut, m): (&[f32], [f32; 3])| {
             let majorant = Sampled(std::array::from_fn(|i| m[(self.hero + i) % 3]));
             MajorantSegment { t0: at(cut[0]), t1: at(cut[1]), majorant, clamp_null: false }

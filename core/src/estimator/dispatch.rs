@@ -2,9 +2,9 @@
 //! everything below is one specialised function per estimator × mode × medium.
 
 use super::Estimator;
-use crate::math::Sampler;
+use crate::math::{Sampler, SamplerKind};
 use crate::medium::{AnyMedium, Medium};
-use crate::scene::{EstimatorDoc, Mode, Scene};
+use crate::scene::{DirectionSampling, EstimatorDoc, Mode, Scene};
 use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transport::{PathSettings, Trace, Wanted, World};
 use glam::{Vec2, Vec3};
@@ -28,6 +28,8 @@ pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, wanted: 
 pub struct Settings {
     /// Spectral or RGB.
     pub mode: Mode,
+    /// How the samples of a pixel relate to each other.
+    pub sampler: SamplerKind,
     /// How spectral mode draws wavelengths.
     pub wavelengths: WavelengthSampling,
     /// Choices that every path shares.
@@ -42,10 +44,11 @@ impl Settings {
     pub fn new(doc: &EstimatorDoc, seed: u64) -> Self {
         let path = PathSettings {
             absorption: doc.absorption,
+            guided: doc.directions == DirectionSampling::TowardsLights,
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
             roulette_depth: doc.roulette_depth.unwrap_or(u32::MAX),
         };
-        Self { mode: doc.mode, wavelengths: doc.wavelengths, path, seed }
+        Self { mode: doc.mode, sampler: doc.sampler, wavelengths: doc.wavelengths, path, seed }
     }
 }
 
@@ -108,10 +111,10 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     wanted: Wanted<'_>,
 ) -> PathEstimate {
     let pixel = u64::from(at.y) * u64::from(scene.width) + u64::from(at.x);
-    let mut trace = Trace::new(Sampler::new(settings.seed, pixel, at.sample), wanted);
-    let jitter = trace.sampler.next_2d();
+    let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), wanted);
+    let (jitter, u) = trace.sampler.camera();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
-    let components = C::sample(trace.sampler.next_1d(), settings.wavelengths);
+    let components = C::sample(u, settings.wavelengths);
     let world = World { scene, medium: medium.local(&components), components, settings: settings.path };
     let radiance = E::estimate(&world, ray, &mut trace);
     PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }

@@ -69,7 +69,7 @@ impl Estimator for Independent {
             {
                 return radiance;
             }
-            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+            ray = world.leave(&vertex, &mut path, trace);
         }
     }
 }

@@ -77,7 +77,7 @@ impl Estimator for Nee {
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
-            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+            ray = world.leave(&vertex, &mut path, trace);
         }
     }
 }

@@ -71,7 +71,7 @@ impl Estimator for SpectralMis {
             {
                 return radiance;
             }
-            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+            ray = world.leave(&vertex, &mut path, trace);
         }
     }
 }

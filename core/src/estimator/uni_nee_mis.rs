@@ -81,7 +81,7 @@ impl Estimator for UniNeeMis {
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
-            ray = vertex.leave(&world.scene.phase, trace, &mut path);
+            ray = world.leave(&vertex, &mut path, trace);
         }
     }
 }

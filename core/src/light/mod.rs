@@ -5,12 +5,14 @@
 
 mod environment;
 mod environment_map;
+mod lobes;
 mod rectangle;
 mod sphere;
 mod sun;
 
 pub use environment::Environment;
 pub use environment_map::{EnvironmentMap, Panorama};
+pub use lobes::LightLobes;
 pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
 pub use sun::Sun;

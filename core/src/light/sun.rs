@@ -29,6 +29,12 @@ impl Sun {
         }
     }
 
+    /// Unit vector towards its centre.
+    #[must_use]
+    pub fn toward(&self) -> Vec3 {
+        self.toward
+    }
+
     /// Whether the disc lies in this direction.
     #[must_use]
     pub fn covers(&self, direction: Vec3) -> bool {

@@ -9,8 +9,8 @@ mod sampler;
 pub use fast::{exp, ln, sin_cos_turns};
 pub use frame::Frame;
 pub use polar::PolarAngle;
-pub use ray::{Ray, UnitBox};
-pub use sampler::Sampler;
+pub use ray::{BoxRay, Ray};
+pub use sampler::{Sampler, SamplerKind};
 
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;

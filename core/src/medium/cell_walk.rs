@@ -1,8 +1,8 @@
 //! The walk through majorant cells: a 3D digital differential analyser (Amanatides and Woo 1987).
 
 use super::MajorantGrid;
-use crate::math::Ray;
-use glam::Vec3;
+use crate::math::BoxRay;
+use glam::{UVec3, Vec3A};
 
 /// A stretch of a ray inside one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,90 +16,70 @@ pub struct CellSegment<const C: usize> {
 }
 
 /// The cells along a ray whose bound is not zero, in order; empty ones are passed over.
-#[derive(Clone, Debug)]
+///
+/// Which face comes next is a matter of chance, so it is found by arithmetic instead of branches.
+#[derive(Clone, Copy, Debug)]
 pub struct CellWalk<'a, const C: usize> {
     grid: &'a MajorantGrid<C>,
+    /// Number of the cell that is entered at `t`.
     cell: usize,
     t: f32,
     t_end: f32,
-    /// Ray parameter of the next face along each axis; infinite once there is none.
-    next: [f32; 3],
+    /// Ray parameter of the next face along each axis.
+    next: Vec3A,
     /// Parameter between faces along each axis.
-    step: [f32; 3],
-    /// What crossing a face adds to the cell's number; its sign wraps.
+    step: Vec3A,
+    /// What crossing a face adds to the cell's number; wraps where it is negative.
     stride: [usize; 3],
-    /// Faces that are left along each axis.
-    left: [u32; 3],
 }
 
+const UNIT: [Vec3A; 4] = [Vec3A::X, Vec3A::Y, Vec3A::Z, Vec3A::ZERO];
+
 impl<'a, const C: usize> CellWalk<'a, C> {
-    /// Starts at `t0`, in or on the border of the unit cube.
+    /// Starts where the ray starts, within the cube.
     #[must_use]
-    pub fn new(grid: &'a MajorantGrid<C>, ray: &Ray, t0: f32, t1: f32) -> Self {
-        let cells = grid.cells();
-        let n = cells as f32;
-        let origin = (ray.at(t0) * n).clamp(Vec3::ZERO, Vec3::splat(n));
-        let direction = ray.direction * n;
-        let mut walk = Self {
+    #[inline]
+    pub fn new(grid: &'a MajorantGrid<C>, ray: &BoxRay) -> Self {
+        let n = grid.cells() as f32;
+        let place = ray.origin * n;
+        // The last cell holds the cube's far faces, too.
+        let [i, j, k] = place.clamp(Vec3A::ZERO, Vec3A::splat(n - 0.5)).as_uvec3().to_array();
+        let forward = ray.direction.cmpgt(Vec3A::ZERO);
+        let step = ray.inverse / n;
+        let face = UVec3::new(i, j, k).as_vec3a() + Vec3A::select(forward, Vec3A::ONE, Vec3A::ZERO);
+        let [x, y, z] = grid.strides();
+        let signed = |stride: usize, forward: bool| if forward { stride } else { stride.wrapping_neg() };
+        Self {
             grid,
-            cell: 0,
-            t: t0,
-            t_end: t1,
-            next: [f32::INFINITY; 3],
-            step: [f32::INFINITY; 3],
-            stride: [1, cells, cells * cells],
-            left: [0; 3],
-        };
-        for axis in 0..3 {
-            let index = (origin[axis] as usize).min(cells - 1);
-            walk.cell += index * walk.stride[axis];
-            let d = direction[axis];
-            if d == 0.0 {
-                continue;
-            }
-            let inverse = 1.0 / d;
-            let (face, left) = if d > 0.0 { (index + 1, cells - 1 - index) } else { (index, index) };
-            walk.step[axis] = inverse.abs();
-            walk.left[axis] = left as u32;
-            if left > 0 {
-                // Never behind the start: rounding may put the origin just beyond the face.
-                walk.next[axis] = t0 + ((face as f32 - origin[axis]) * inverse).max(0.0);
-            }
-            if d < 0.0 {
-                walk.stride[axis] = walk.stride[axis].wrapping_neg();
-            }
+            cell: grid.number([i as usize, j as usize, k as usize]),
+            t: 0.0,
+            t_end: ray.t_end,
+            // Never behind the start: rounding may put it just beyond the face.
+            next: ((face - place) * step).max(Vec3A::ZERO),
+            step: step.abs(),
+            stride: [signed(x, forward.test(0)), signed(y, forward.test(1)), signed(z, forward.test(2))],
         }
-        walk
     }
 }
 
 impl<const C: usize> Iterator for CellWalk<'_, C> {
     type Item = CellSegment<C>;
 
-    #[inline]
+    #[inline(always)]
     fn next(&mut self) -> Option<CellSegment<C>> {
         while self.t < self.t_end {
-            let [x, y, z] = self.next;
-            let axis = if x < y {
-                if x < z { 0 } else { 2 }
-            } else if y < z {
-                1
-            } else {
-                2
-            };
+            let face = self.next.min_element();
             let segment = CellSegment {
                 t0: self.t,
-                t1: self.next[axis].min(self.t_end),
-                bound: self.grid.bound(self.cell),
+                t1: face.min(self.t_end),
+                bound: self.grid.bound_by_number(self.cell),
             };
-            self.t = segment.t1;
-            if self.t < self.t_end {
-                self.cell = self.cell.wrapping_add(self.stride[axis]);
-                self.left[axis] -= 1;
-                self.next[axis] =
-                    if self.left[axis] == 0 { f32::INFINITY } else { self.next[axis] + self.step[axis] };
-            }
-            if segment.bound != [0.0; C] && segment.t0 < segment.t1 {
+            self.t = face;
+            // One face at a time: where a ray meets an edge, a cell of length zero comes between.
+            let axis = self.next.cmple(Vec3A::splat(face)).bitmask().trailing_zeros() as usize % 4;
+            self.next += self.step * UNIT[axis];
+            self.cell = self.cell.wrapping_add(self.stride[axis.min(2)]);
+            if segment.bound != [0.0; C] {
                 return Some(segment);
             }
         }
@@ -110,8 +90,9 @@ impl<const C: usize> Iterator for CellWalk<'_, C> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Sampler, UnitBox, uniform_direction};
+    use crate::math::{BoxRay, Ray, Sampler, uniform_direction};
     use crate::medium::{Grid, Lattice};
+    use glam::{Affine3A, Vec3};
 
     fn noise(size: [usize; 3], lattice: Lattice) -> Grid<1> {
         let mut random = Sampler::new(3, 1, 4);
@@ -141,14 +122,15 @@ mod tests {
                     direction = Vec3::AXES[i % 3] * if i % 2 == 0 { 1.0 } else { -1.0 };
                 }
                 let ray = Ray { origin: target - direction, direction };
-                let Some((t0, t1)) = UnitBox::interval(&ray) else { continue };
-                let ray = Ray { origin: ray.at(t0), direction };
-                let segments: Vec<_> = bounds.walk(&ray, 0.0, t1 - t0).collect();
+                let Some((_, ray)) = BoxRay::enter(&ray, &Affine3A::IDENTITY, f32::INFINITY) else {
+                    continue;
+                };
+                let segments: Vec<_> = bounds.walk(&ray).collect();
                 for pair in segments.windows(2) {
                     assert!(pair[0].t1 <= pair[1].t0, "{pair:?}");
                 }
                 for k in 0..200u8 {
-                    let t = (t1 - t0) * (f32::from(k) + 0.5) / 200.0;
+                    let t = ray.t_end * (f32::from(k) + 0.5) / 200.0;
                     let [density] = grid.at(ray.at(t));
                     let here = segments.iter().find(|s| (s.t0..s.t1).contains(&t));
                     let bound = here.map_or(0.0, |s| s.bound[0]);
@@ -162,13 +144,14 @@ mod tests {
     fn bounds_are_no_looser_than_the_neighbours_and_tight_where_a_cell_holds_its_maximum() {
         let grid = noise([16, 16, 16], Lattice::CellCentred);
         let one = MajorantGrid::new(&grid, 1);
-        assert!((one.bound(0)[0] / grid.max()[0] - 1.0).abs() < 1e-6);
-        assert!((one.mean(0) / grid.mean()[0] - 1.0).abs() < 1e-5);
+        assert!((one.bound([0; 3])[0] / grid.max()[0] - 1.0).abs() < 1e-6);
+        assert!((one.mean([0; 3]) / grid.mean()[0] - 1.0).abs() < 1e-5);
         // Halving gives bounds that hold as well, and never looser ones.
         let mut fine = MajorantGrid::new(&grid, 8);
         while let Some(coarse) = fine.halved() {
             let direct = MajorantGrid::new(&grid, coarse.cells());
-            for cell in 0..coarse.cells().pow(3) {
+            let n = coarse.cells();
+            for cell in (0..n.pow(3)).map(|i| [i % n, i / n % n, i / n / n]) {
                 assert!(coarse.bound(cell)[0] <= direct.bound(cell)[0] * 1.000_001);
             }
             assert!(coarse.mean_bound() >= fine.mean_bound());

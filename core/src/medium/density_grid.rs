@@ -3,7 +3,7 @@
 use super::{
     CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
 };
-use crate::math::Ray;
+use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
 use std::sync::Arc;
@@ -63,8 +63,8 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     }
 
     #[inline]
-    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
-        DensitySegments { cells: self.bounds.walk(ray, t0, t1), majorant: self.majorant, policy: self.policy }
+    fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
+        DensitySegments { cells: self.bounds.walk(ray), majorant: self.majorant, policy: self.policy }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Constant coefficients: σt(λ) and albedo(λ) everywhere in the box.
 
 use super::{Coefficients, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
-use crate::math::Ray;
+use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
 
@@ -45,7 +45,7 @@ impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
         Coefficients::new(self.extinction, self.albedo, majorant)
     }
 
-    fn segments<'a>(&'a self, _ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
-        std::iter::once(self.policy.segment(self.majorant, t0, t1))
+    fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
+        std::iter::once(self.policy.segment(self.majorant, 0.0, ray.t_end))
     }
 }

@@ -1,19 +1,21 @@
 //! Local upper bounds of a field: one per cell of a coarse lattice over the unit cube.
 
 use super::{CellWalk, Grid};
-use crate::math::Ray;
+use crate::math::BoxRay;
 use glam::Vec3;
 use rayon::prelude::*;
 
 /// How far beyond its own cell a bound holds, in samples: a point on a ray may round across a face.
 const REACH: f32 = 1e-3;
 
-/// Bounds of an interpolated field over `n³` cells of the unit cube, x fastest, then y, then z.
+/// Bounds of an interpolated field over `n³` cells of the unit cube.
 #[derive(Clone, Debug)]
 pub struct MajorantGrid<const C: usize> {
     cells: usize,
-    bound: Vec<[f32; C]>,
-    /// Mean of the field over each cell, largest channel.
+    /// `(n + 2)³` bounds, x fastest: the outermost layer is empty, so that a walk which rounds out of the
+    /// cube finds nothing there.
+    padded: Vec<[f32; C]>,
+    /// Mean of the field over each of `n³` cells, largest channel.
     mean: Vec<f32>,
 }
 
@@ -28,14 +30,23 @@ impl<const C: usize> MajorantGrid<C> {
         let cells = cells.max(1);
         let spans: [Vec<Span>; 3] =
             std::array::from_fn(|axis| (0..cells).map(|i| Span::of_cell(grid, axis, i, cells)).collect());
-        let (bound, mean) = (0..cells * cells)
+        let (bound, mean): (Vec<_>, Vec<_>) = (0..cells * cells)
             .into_par_iter()
             .flat_map_iter(|yz| {
                 let (y, z) = (&spans[1][yz % cells], &spans[2][yz / cells]);
                 spans[0].iter().map(move |x| summary(grid, [x, y, z]))
             })
             .unzip();
-        Self { cells, bound, mean }
+        Self::padded(cells, &bound, mean)
+    }
+
+    fn padded(cells: usize, bound: &[[f32; C]], mean: Vec<f32>) -> Self {
+        let mut grid = Self { cells, padded: vec![[0.0; C]; (cells + 2).pow(3)], mean };
+        for (yz, row) in bound.chunks_exact(cells).enumerate() {
+            let first = grid.number([0, yz % cells, yz / cells]);
+            grid.padded[first..first + cells].copy_from_slice(row);
+        }
+        grid
     }
 
     /// Half as many cells per axis, each the largest of eight; `None` for an odd number of cells.
@@ -48,16 +59,16 @@ impl<const C: usize> MajorantGrid<C> {
         let eight = |cell: usize| {
             let at = [cell % half, cell / half % half, cell / half / half];
             (0..8).map(move |corner: usize| {
-                let [x, y, z] = std::array::from_fn(|axis| 2 * at[axis] + (corner >> axis & 1));
-                x + self.cells * (y + self.cells * z)
+                std::array::from_fn::<usize, 3, _>(|axis| 2 * at[axis] + (corner >> axis & 1))
             })
         };
-        let all = 0..half * half * half;
         let largest = |cell| {
-            eight(cell).fold([0.0f32; C], |max, i| std::array::from_fn(|c| max[c].max(self.bound[i][c])))
+            let bounds = eight(cell).map(|at| self.bound(at));
+            bounds.fold([0.0f32; C], |max, bound| std::array::from_fn(|c| max[c].max(bound[c])))
         };
-        let mean = |cell| eight(cell).map(|i| self.mean[i]).sum::<f32>() / 8.0;
-        Some(Self { cells: half, bound: all.clone().map(largest).collect(), mean: all.map(mean).collect() })
+        let mean = |cell| eight(cell).map(|at| self.mean(at)).sum::<f32>() / 8.0;
+        let bound: Vec<_> = (0..half.pow(3)).map(largest).collect();
+        Some(Self::padded(half, &bound, (0..half.pow(3)).map(mean).collect()))
     }
 
     /// Cells per axis.
@@ -66,30 +77,50 @@ impl<const C: usize> MajorantGrid<C> {
         self.cells
     }
 
-    /// The bound of cell number `x + n (y + n z)`.
+    /// The bound of the field in a cell.
     #[must_use]
-    #[inline]
-    pub fn bound(&self, cell: usize) -> [f32; C] {
-        self.bound[cell]
+    pub fn bound(&self, cell: [usize; 3]) -> [f32; C] {
+        self.padded[self.number(cell)]
     }
 
     /// Mean of the field over a cell, largest channel.
     #[must_use]
-    pub fn mean(&self, cell: usize) -> f32 {
-        self.mean[cell]
+    pub fn mean(&self, [x, y, z]: [usize; 3]) -> f32 {
+        self.mean[x + self.cells * (y + self.cells * z)]
     }
 
     /// Mean over all cells of the bound's largest channel: what a straight line through the box meets.
     #[must_use]
     pub fn mean_bound(&self) -> f32 {
         let largest = |bound: &[f32; C]| f64::from(bound.iter().fold(0.0f32, |a, b| a.max(*b)));
-        (self.bound.iter().map(largest).sum::<f64>() / self.bound.len() as f64) as f32
+        (self.padded.iter().map(largest).sum::<f64>() / self.cells.pow(3) as f64) as f32
     }
 
-    /// The cells that a ray crosses between `t0` and `t1`, in order.
+    /// What a cell goes by in a walk.
+    #[inline]
+    pub(super) fn number(&self, [x, y, z]: [usize; 3]) -> usize {
+        let [_, row, layer] = self.strides();
+        (x + 1) + row * (y + 1) + layer * (z + 1)
+    }
+
+    /// Between the numbers of neighbours along each axis.
+    #[inline]
+    pub(super) fn strides(&self) -> [usize; 3] {
+        let row = self.cells + 2;
+        [1, row, row * row]
+    }
+
+    /// The bound by a cell's number; nothing beyond the last.
+    #[inline]
+    pub(super) fn bound_by_number(&self, number: usize) -> [f32; C] {
+        self.padded.get(number).copied().unwrap_or([0.0; C])
+    }
+
+    /// The cells that a ray crosses up to `t_end`.
     #[must_use]
-    pub fn walk(&self, ray: &Ray, t0: f32, t1: f32) -> CellWalk<'_, C> {
-        CellWalk::new(self, ray, t0, t1)
+    #[inline]
+    pub fn walk(&self, ray: &BoxRay) -> CellWalk<'_, C> {
+        CellWalk::new(self, ray)
     }
 }
 

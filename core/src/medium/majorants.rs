@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub const MAX_MAJORANT_CELLS: u32 = 128;
 
 /// What crossing a majorant cell costs, in density look-ups.
-const CELL_COST: f32 = 0.25;
+const CELL_COST: f32 = 0.08;
 
 /// The majorant grids of one field, by resolution. Edits of scale, spectra or albedo only choose among
 /// them; voxels are read once per resolution.

@@ -27,7 +27,7 @@ pub use majorant_grid::MajorantGrid;
 pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 
-use crate::math::Ray;
+use crate::math::BoxRay;
 use crate::spectrum::Components;
 use glam::Vec3;
 
@@ -53,9 +53,8 @@ pub trait LocalMedium<const N: usize> {
     /// majorant of the segment that the point lies in. One density look-up.
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N>;
 
-    /// Majorants along a ray in medium space, as segments within `t0..t1` in order. What they leave out
-    /// is empty.
-    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a>;
+    /// Majorants along a ray through the unit cube, as segments in order. What they leave out is empty.
+    fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a>;
 }
 
 /// Any medium, to be matched once before a monomorphic loop.

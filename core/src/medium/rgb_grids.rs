@@ -8,7 +8,7 @@ use super::density_grid::DensitySegments;
 use super::{
     CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
 };
-use crate::math::Ray;
+use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
@@ -116,16 +116,16 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         Coefficients::new(extinction, albedo, majorant)
     }
 
-    fn segments<'a>(&'a self, ray: &Ray, t0: f32, t1: f32) -> Self::Segments<'a> {
+    fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
         let policy = self.medium.majorant;
         match &self.medium.extinction {
-            ExtinctionField::Uniform(_) => Segments::One(Some(policy.segment(self.majorant, t0, t1))),
+            ExtinctionField::Uniform(_) => Segments::One(Some(policy.segment(self.majorant, 0.0, ray.t_end))),
             ExtinctionField::Density(_, bounds, _) => Segments::Density(DensitySegments {
-                cells: bounds.walk(ray, t0, t1),
+                cells: bounds.walk(ray),
                 majorant: self.majorant,
                 policy,
             }),
-            ExtinctionField::Rgb(_, bounds, _) => Segments::Rgb(bounds.walk(ray, t0, t1), self),
+            ExtinctionField::Rgb(_, bounds, _) => Segments::Rgb(bounds.walk(ray), self),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{
     SceneInfo, WhenExceeded, placement, validate,
 };
 use crate::light::{
-    Environment, EnvironmentMap, Light, LightKind, Panorama, RectangleLight, SphereLight, Sun,
+    Environment, EnvironmentMap, Light, LightKind, LightLobes, Panorama, RectangleLight, SphereLight, Sun,
 };
 use crate::medium::{
     AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantGrid, MajorantPolicy,
@@ -107,6 +107,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
     });
 
     Ok(Scene {
+        lobes: LightLobes::towards(&lights),
         achromatic: medium.is_achromatic() && flat_surfaces,
         camera: Camera::new(&doc.camera, doc.film.width, doc.film.height),
         width: doc.film.width,

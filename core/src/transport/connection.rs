@@ -27,12 +27,12 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, N>> {
         let lights = &self.scene.lights;
-        let index = (trace.sampler.next_1d() * lights.len() as f32) as usize;
-        let u = trace.sampler.next_2d();
+        let (u, which) = trace.sampler.light();
+        let index = (which * lights.len() as f32) as usize;
         let light = lights.get(index)?;
         let sample = light.sample(vertex.point(), u)?;
-        let density = vertex.density(&self.scene.phase, sample.direction);
-        if density <= 0.0 {
+        let turn = self.turns().towards(vertex, sample.direction);
+        if turn.value <= 0.0 {
             return None;
         }
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
@@ -40,8 +40,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         if self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
             return None;
         }
-        let mut weights = path.connect(density, sample.density / lights.len() as f32);
-        let mut walk = self.walk(&ray, sample.distance);
+        let mut weights = path.connect(&turn, sample.density / lights.len() as f32);
+        let mut walk = self.walk_to_light(&ray, sample.distance);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
             if weights.is_dark() {

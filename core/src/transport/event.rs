@@ -67,7 +67,7 @@ impl<const N: usize> Collision<N> {
     /// Draws the event from the hero's densities.
     pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
-        let u = trace.sampler.next_1d() * self.coefficients.majorant.hero();
+        let u = trace.sampler.event() * self.coefficients.majorant.hero();
         // The three densities add up to μ̄. An event of density zero is never drawn, even by rounding.
         if u < self.absorption_density {
             Event::Absorption

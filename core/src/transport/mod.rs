@@ -5,6 +5,7 @@
 
 mod connection;
 mod event;
+mod turn;
 mod vertex;
 mod walk;
 mod wanted;
@@ -13,6 +14,7 @@ mod world;
 
 pub use connection::Connection;
 pub use event::{Collision, Event};
+pub use turn::{Turn, Turns};
 pub use vertex::Vertex;
 pub use walk::Walk;
 pub use wanted::Wanted;

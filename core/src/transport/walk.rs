@@ -4,7 +4,7 @@
 //! that a ray may cross any number of segments at the price of one logarithm.
 
 use super::{Collision, PathWeights, Trace};
-use crate::math::{Ray, UnitBox};
+use crate::math::{BoxRay, Ray};
 use crate::medium::{LocalMedium, MajorantSegment};
 use crate::scene::{Absorption, Scene};
 use crate::spectrum::Sampled;
@@ -12,67 +12,93 @@ use crate::spectrum::Sampled;
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
-    ray_in_world: Ray,
-    ray_in_medium: Ray,
-    segments: Option<L::Segments<'m>>,
-    segment: Option<MajorantSegment<N>>,
-    t: f32,
     absorption: Absorption,
+    /// Whether it looks for the path's next vertex, whose random numbers it then may take.
+    to_vertex: bool,
+    /// What is left of the way; `None` where the ray misses the medium, or has left it.
+    way: Option<Way<'m, L, N>>,
+}
+
+struct Way<'m, L: LocalMedium<N> + 'm, const N: usize> {
+    /// From where the ray enters the medium, as is everything that counts `t`.
+    in_world: Ray,
+    in_medium: BoxRay,
+    segments: L::Segments<'m>,
+    segment: MajorantSegment<N>,
+    t: f32,
 }
 
 impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     /// Starts at the ray's origin and ends where the ray leaves the medium, at `t_max` at the latest.
     #[must_use]
+    #[inline(always)]
     pub fn new(medium: &'m L, scene: &Scene, ray: &Ray, t_max: f32, absorption: Absorption) -> Self {
-        let ray_in_medium = Ray {
-            origin: scene.medium_from_world.transform_point3(ray.origin),
-            direction: scene.medium_from_world.transform_vector3(ray.direction),
+        Self::along(medium, scene, ray, t_max, absorption, true)
+    }
+
+    /// As [`Self::new`]; says whether the walk looks for the path's next vertex, or connects two.
+    #[must_use]
+    #[inline(always)]
+    pub fn along(
+        medium: &'m L,
+        scene: &Scene,
+        ray: &Ray,
+        t_max: f32,
+        absorption: Absorption,
+        to_vertex: bool,
+    ) -> Self {
+        let outside = Self { medium, absorption, to_vertex, way: None };
+        let Some((t0, in_medium)) = BoxRay::enter(ray, &scene.medium_from_world, t_max) else {
+            return outside;
         };
-        // The walk counts from where it enters: a camera far away must not cost it digits.
-        let inside =
-            UnitBox::interval(&ray_in_medium).map(|(t0, t1)| (t0, t1.min(t_max))).filter(|(t0, t1)| t0 < t1);
-        let from_entry = |ray: &Ray, t0: f32| Ray { origin: ray.at(t0), direction: ray.direction };
-        let (t0, length) = inside.map_or((0.0, 0.0), |(t0, t1)| (t0, t1 - t0));
-        let ray_in_medium = from_entry(&ray_in_medium, t0);
-        let mut segments = inside.map(|_| medium.segments(&ray_in_medium, 0.0, length));
-        let segment = segments.as_mut().and_then(Iterator::next);
-        let ray_in_world = from_entry(ray, t0);
-        Self { medium, ray_in_world, ray_in_medium, segments, segment, t: 0.0, absorption }
+        let mut segments = medium.segments(&in_medium);
+        let Some(segment) = segments.next() else { return outside };
+        let in_world = Ray { origin: ray.at(t0), direction: ray.direction };
+        Self {
+            medium,
+            absorption,
+            to_vertex,
+            way: Some(Way { in_world, in_medium, segments, segment, t: segment.t0 }),
+        }
     }
 
     /// Flies to the next tentative collision and multiplies the way there into `weights`; `None` once
     /// the walk has left the medium, or the path is not wanted any more.
-    #[inline]
+    #[inline(always)]
     pub fn next_collision(
         &mut self,
         trace: &mut Trace<'_>,
         weights: &mut PathWeights<N>,
     ) -> Option<Collision<N>> {
-        self.segment?;
+        let way = self.way.as_mut()?;
         if trace.must_stop() {
             return None;
         }
-        let mut optical_depth = trace.sampler.next_optical_depth();
+        let sampler = &mut trace.sampler;
+        let mut optical_depth =
+            if self.to_vertex { sampler.optical_depth() } else { sampler.next_optical_depth() };
         let mut passed = Sampled::ZERO;
-        while let Some(segment) = self.segment {
-            // Stretches between segments are empty.
-            let t = self.t.max(segment.t0);
+        loop {
+            let segment = &way.segment;
             let hero = segment.majorant.hero();
-            let in_segment = hero * (segment.t1 - t);
+            let in_segment = hero * (segment.t1 - way.t);
             if optical_depth < in_segment {
                 let distance = optical_depth / hero;
                 weights.pass(passed + segment.majorant * distance);
-                self.t = t + distance;
+                way.t += distance;
                 trace.lookups += 1;
-                let coefficients = self.medium.coefficients(self.ray_in_medium.at(self.t), &segment);
-                return Some(Collision::new(self.ray_in_world.at(self.t), coefficients, self.absorption));
+                let coefficients = self.medium.coefficients(way.in_medium.at(way.t), segment);
+                return Some(Collision::new(way.in_world.at(way.t), coefficients, self.absorption));
             }
             optical_depth -= in_segment;
-            passed += segment.majorant * (segment.t1 - t);
-            self.t = segment.t1;
-            self.segment = self.segments.as_mut().and_then(Iterator::next);
+            passed += segment.majorant * (segment.t1 - way.t);
+            let Some(next) = way.segments.next() else { break };
+            // Stretches between segments are empty.
+            way.t = next.t0;
+            way.segment = next;
         }
         weights.pass(passed);
+        self.way = None;
         None
     }
 }

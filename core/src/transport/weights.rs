@@ -20,7 +20,7 @@
 //! Decisions that do not depend on the components, such as Russian roulette, scale the contribution
 //! alone: weights that leave them out of *every* technique still sum to one.
 
-use super::Collision;
+use super::{Collision, Turn};
 use crate::spectrum::{Radiance, Sampled};
 
 /// Contribution and densities of a path, divided by the density with which it was made.
@@ -104,23 +104,27 @@ impl<const N: usize> PathWeights<N> {
         self.contribution *= albedo;
     }
 
-    /// Leaves a vertex in a direction that was drawn with `density`, proportional to the phase
-    /// function or cosine lobe: f and p_uni gain it, p_nee does not, as a light would have been
-    /// sampled here instead. The light's own density joins p_nee in [`Self::balanced`].
+    /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
+    /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
+    /// joins p_nee in [`Self::balanced`].
     #[inline]
-    pub fn leave(&mut self, density: f32) {
-        self.nee = self.uni * (1.0 / density);
+    pub fn leave(&mut self, turn: &Turn) {
+        let drawn = 1.0 / turn.density;
+        if turn.value != turn.density {
+            self.contribution *= turn.value * drawn;
+        }
+        self.nee = self.uni * drawn;
     }
 
-    /// A connection from a vertex in a direction that was drawn with `light_density`, where the phase
-    /// function or cosine lobe has `density`. From here on P is p_nee of the hero.
+    /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
+    /// the path. From here on P is p_nee of the hero.
     #[must_use]
     #[inline]
-    pub fn connect(&self, density: f32, light_density: f32) -> Self {
-        let ratio = density / light_density;
+    pub fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+        let drawn = 1.0 / light_density;
         Self {
-            contribution: self.contribution * ratio,
-            uni: self.uni * ratio,
+            contribution: self.contribution * (turn.value * drawn),
+            uni: self.uni * (turn.density * drawn),
             nee: self.uni,
             pending: self.pending,
         }

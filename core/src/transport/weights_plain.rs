@@ -6,6 +6,7 @@ use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
 use crate::spectrum::Sampled;
 use crate::transport::Collision;
+use crate::transport::Turn;
 use glam::Vec3;
 use proptest::array::uniform;
 use proptest::prelude::*;
@@ -94,13 +95,28 @@ impl<const N: usize> Step<N> {
                     Absorption::Weighted => t,
                 } * m
                     / (t + (m - t).abs());
-                [t * albedo * density, drawn * density, drawn]
+                [t * albedo * VALUE * density, drawn * density, drawn]
             }
             Self::Reflect(albedo, density) => {
                 [f64::from(albedo[i]) * f64::from(*density), f64::from(*density), 1.0]
             }
             Self::Survive(q) => [1.0 / f64::from(*q), 1.0, 1.0],
         }
+    }
+}
+
+/// The phase function over the density that directions in the medium are drawn with.
+const VALUE: f64 = 0.6;
+
+impl<const N: usize> Step<N> {
+    /// The turn of a path at a vertex.
+    fn turn(&self) -> Option<Turn> {
+        let (value, density) = match self {
+            Self::Scatter(_, density) => (VALUE as f32 * density, *density),
+            Self::Reflect(_, density) => (*density, *density),
+            _ => return None,
+        };
+        Some(Turn { direction: Vec3::Z, value, density })
     }
 }
 
@@ -141,8 +157,8 @@ impl<const N: usize> Events<N> {
             Step::Survive(q) => path.survive(*q),
         }
         // The last vertex is left by one technique or the other.
-        if let Step::Scatter(_, density) | Step::Reflect(_, density) = step {
-            path.leave(*density);
+        if let Some(turn) = step.turn() {
+            path.leave(&turn);
         }
     }
 
@@ -163,18 +179,13 @@ impl<const N: usize> Events<N> {
     /// The weights as a connection from the last vertex makes the path.
     pub fn connection(&self) -> PathWeights<N> {
         let mut path = self.up_to_vertex();
-        let density = match &self.vertex {
-            Step::Scatter(place, density) => {
-                path.scatter(&place.collision(self.absorption));
-                *density
-            }
-            Step::Reflect(albedo, density) => {
-                path.reflect(Sampled(*albedo));
-                *density
-            }
+        match &self.vertex {
+            Step::Scatter(place, _) => path.scatter(&place.collision(self.absorption)),
+            Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
             other => panic!("{other:?} is no vertex"),
-        };
-        let mut link = path.connect(density, self.light);
+        }
+        let turn = self.vertex.turn().expect("a vertex turns the path");
+        let mut link = path.connect(&turn, self.light);
         for step in &self.after {
             match step {
                 Step::Pass { majorant, distance } => link.pass(Sampled(*majorant) * *distance),

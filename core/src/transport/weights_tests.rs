@@ -9,6 +9,7 @@ use crate::math::Sampler;
 use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
 use crate::spectrum::Sampled;
+use crate::transport::Turn;
 use crate::transport::{Collision, Event, Trace, Wanted};
 use glam::Vec3;
 use plain::{Events, events};
@@ -151,13 +152,14 @@ fn a_hundred_thousand_events_stay_finite() {
         let coefficients = Coefficients::new(extinction, Sampled::ONE, &segment);
         let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted);
         let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
+        let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
         let mut path = PathWeights::CAMERA;
         for _ in 0..100_000 {
             path.pass(majorant * (trace.sampler.next_optical_depth() / majorant.hero()));
             let link = if collision.draw_event(&mut trace) == Event::Scattering {
                 path.scatter(&collision);
-                let link = path.connect(0.08, 40.0);
-                path.leave(0.08);
+                let link = path.connect(&turn, 40.0);
+                path.leave(&turn);
                 link
             } else {
                 path.null(&collision);

@@ -1,6 +1,6 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Vertex, Walk, Wanted};
+use super::{Turns, Vertex, Walk, Wanted};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
@@ -13,6 +13,8 @@ use crate::surface::Role;
 pub struct PathSettings {
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
+    /// Whether directions are drawn towards the lights as well as by the phase function.
+    pub guided: bool,
     /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.
     pub max_depth: u32,
     /// Russian roulette from this number of real vertices on; `u32::MAX` for never.
@@ -76,8 +78,16 @@ pub struct World<'a, L, C, const N: usize> {
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// The walk through the medium along a ray, up to `t_max`.
     #[must_use]
+    #[inline(always)]
     pub fn walk(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
         Walk::new(&self.medium, self.scene, ray, t_max, self.settings.absorption)
+    }
+
+    /// The walk of a connection, up to a light.
+    #[must_use]
+    #[inline(always)]
+    pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
+        Walk::along(&self.medium, self.scene, ray, t_max, self.settings.absorption, false)
     }
 
     /// The surface that a ray meets first. Rays from the camera pass through hidden lights.
@@ -122,6 +132,23 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
     }
 
+    /// What directions are drawn from.
+    #[must_use]
+    #[inline]
+    pub fn turns(&self) -> Turns<'_> {
+        let lobes = if self.settings.guided { self.scene.lobes.as_ref() } else { None };
+        Turns { phase: &self.scene.phase, lobes }
+    }
+
+    /// Draws the direction that a path leaves a vertex in.
+    #[inline]
+    pub fn leave(&self, vertex: &Vertex, weights: &mut super::PathWeights<N>, trace: &mut Trace<'_>) -> Ray {
+        let turn = self.turns().draw(vertex, trace.sampler.direction());
+        trace.sampler.start_vertex();
+        weights.leave(&turn);
+        Ray { origin: vertex.point(), direction: turn.direction }
+    }
+
     /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
     /// can still contribute, it is still wanted.
     pub fn goes_on(&self, vertices: u32, weights: &super::PathWeights<N>, trace: &mut Trace<'_>) -> bool {
@@ -141,7 +168,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         }
         let q = weights.throughput().clamp(0.05, 1.0);
         if q < 1.0 {
-            if trace.sampler.next_1d() >= q {
+            if trace.sampler.roulette() >= q {
                 return false;
             }
             weights.survive(q);

@@ -197,7 +197,7 @@ mod tests {
         let frame = Frame::about(Vec3::new(0.6, 0.0, -0.8));
         let cap = |height: f32| {
             move |s: &mut Sampler| {
-                frame.polar(PolarAngle::from_one_minus_cos(height * s.next_1d()), TAU * s.next_1d())
+                frame.polar(PolarAngle::from_one_minus_cos(height * s.next_1d()), s.next_1d())
             }
         };
         let axis = frame.to_world(Vec3::Z);
@@ -207,7 +207,7 @@ mod tests {
         assert!(!passes(cap(0.99e-3), density));
         assert!(!passes(cap(1.01e-3), density));
         let turned = |s: &mut Sampler| {
-            let turn = 0.97 * TAU * s.next_1d();
+            let turn = 0.97 * s.next_1d();
             frame.polar(PolarAngle::from_one_minus_cos(1e-3 * s.next_1d()), turn)
         };
         assert!(!passes(turned, density));

@@ -20,7 +20,7 @@ pub use compare::{
 pub use light::LightDoc;
 pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
-pub use render::{Absorption, EstimatorDoc, Limits, Mode, RenderDoc};
+pub use render::{Absorption, DirectionSampling, EstimatorDoc, Limits, Mode, RenderDoc};
 
 use serde::{Deserialize, Serialize};
 

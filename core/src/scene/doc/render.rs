@@ -1,5 +1,6 @@
 //! Estimator and sampling limits as edited.
 
+use crate::math::SamplerKind;
 use crate::spectrum::WavelengthSampling;
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +12,12 @@ pub struct EstimatorDoc {
     pub id: String,
     /// What a path's components stand for.
     pub mode: Mode,
+    /// How the samples of a pixel relate to each other.
+    pub sampler: SamplerKind,
     /// How spectral mode draws the hero's wavelength.
     pub wavelengths: WavelengthSampling,
+    /// What directions in the medium are drawn from.
+    pub directions: DirectionSampling,
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
     /// Most segments of a path between camera, scattering vertices and light: 1 is emission only, 2 is
@@ -30,7 +35,9 @@ impl Default for EstimatorDoc {
         Self {
             id: "uni-nee-mis".into(),
             mode: Mode::Spectral,
+            sampler: SamplerKind::Independent,
             wavelengths: WavelengthSampling::Sensor,
+            directions: DirectionSampling::Phase,
             absorption: Absorption::Weighted,
             max_depth: None,
             roulette_depth: None,
@@ -47,6 +54,18 @@ pub enum Mode {
     Spectral,
     /// Three fixed components: red, green, blue.
     Rgb,
+}
+
+/// What directions in the medium are drawn from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DirectionSampling {
+    /// The phase function, as in the papers.
+    #[default]
+    Phase,
+    /// A mixture of the phase function and of broad lobes towards the lights: wins where light comes from the
+    /// side and scattering is sharply forward.
+    TowardsLights,
 }
 
 /// What happens at a collision in a medium that absorbs.
