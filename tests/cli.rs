@@ -1,6 +1,8 @@
 //! The command line end to end: the real program, its output and its exit codes.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+#[path = "cli/bench.rs"]
+mod bench;
 #[path = "cli/compare.rs"]
 mod compare;
 

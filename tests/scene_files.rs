@@ -3,12 +3,15 @@
 
 use majorant_core::io::embedded::SCENES;
 use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
+use majorant_core::math::SamplerKind;
+use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
-    Absorption, Arrangement, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, EstimatorDoc, Fairness,
-    FilmDoc, GridRef, Layer, LightDoc, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc,
-    PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc, WhenExceeded,
+    Absorption, Arrangement, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
+    EstimatorDoc, Fairness, FilmDoc, GridRef, Layer, LightDoc, MajorantDoc, MeasureId, MediumDoc, Mode,
+    ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc,
+    WhenExceeded,
 };
-use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc};
+use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
 /// A document in which nothing is at its default.
 fn everything() -> SceneDoc {
@@ -35,6 +38,8 @@ fn everything() -> SceneDoc {
             albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]),
             albedo_grid: Some(GridRef { file: "a.vol".into(), grid: None }),
             density: DensityDoc::Grid(GridRef { file: "d.vdb".into(), grid: Some("smoke".into()) }),
+            precision: Precision::F16,
+            interpolation: Interpolation::Stochastic,
             placement: PlacementDoc {
                 fit: Some(2.0),
                 scale: [1.0, 2.0, 3.0],
@@ -42,7 +47,12 @@ fn everything() -> SceneDoc {
                 translate: [4.0, 5.0, 6.0],
                 matrix: Some([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0]]),
             },
-            majorant: MajorantDoc { factor: 0.7, shared: true, when_exceeded: WhenExceeded::Clamp },
+            majorant: MajorantDoc {
+                factor: 0.7,
+                shared: true,
+                when_exceeded: WhenExceeded::Clamp,
+                resolution: Some(24),
+            },
             phase: PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.2, forward: 0.6 },
         },
         lights: LightDoc::templates()
@@ -54,6 +64,9 @@ fn everything() -> SceneDoc {
         estimator: EstimatorDoc {
             id: "nee".into(),
             mode: Mode::Rgb,
+            sampler: SamplerKind::Lattice,
+            wavelengths: WavelengthSampling::Uniform,
+            directions: DirectionSampling::TowardsLights,
             absorption: Absorption::Analogue,
             max_depth: Some(7),
             roulette_depth: Some(3),

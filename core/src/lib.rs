@@ -1,7 +1,7 @@
 //! Monte Carlo light transport in participating media, on the null-scattering path integral.
 //!
 //! ```text
-//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare
+//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench
 //!                                                          ▲                                             ▲
 //!                                         io (scenes, volumes, pictures, results)          measure (errors)
 //!   film ─► measure (errors of a picture against a reference)
@@ -12,6 +12,7 @@
 //! Rooms follow concepts: one estimator, one medium, one phase function, one light is one file.
 //! Imports point one way, along the arrows. Nothing here knows a window.
 
+pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod estimator;
@@ -44,6 +45,7 @@ mod tests {
         &["io"],
         &["session", "check"],
         &["compare"],
+        &["bench"],
     ];
 
     fn layer(room: &str) -> usize {

@@ -1,5 +1,6 @@
 //! The command line: one subcommand per file. What the window renders, `render` renders too.
 
+mod bench;
 mod check;
 mod compare;
 mod estimators;
@@ -32,6 +33,7 @@ Examples:
   majorant check                                  hold the estimators against known answers
   majorant compare cloud-backlit --seconds 20 -o report --html
                                                   which estimator wins, and by how much
+  majorant bench first-light --seconds 4          how much certainty does a second buy?
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
 Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window."
@@ -49,6 +51,8 @@ enum Command {
     Render(render::Arguments),
     /// Hold every estimator against answers that are known, or against each other on your own scene.
     Check(check::Arguments),
+    /// Measure speed: equal time for every estimator, error against a reference, efficiency.
+    Bench(bench::Arguments),
     /// Rank estimators on a scene: cost, noise, error, speed-up, bias; as a table, files, a page.
     Compare(compare::Arguments),
     /// List the estimators.
@@ -81,6 +85,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         None => lab::run(arguments.lab),
         Some(Command::Render(a)) => render::run(&a),
+        Some(Command::Bench(a)) => bench::run(&a),
         Some(Command::Check(a)) => check::run(&a),
         Some(Command::Compare(a)) => compare::run(&a),
         Some(Command::Estimators) => estimators::run(),

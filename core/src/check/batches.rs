@@ -3,6 +3,7 @@
 use super::stats::mean_and_error;
 use crate::estimator::{Kernel, PathIndex, Settings};
 use crate::film::NonFinite;
+use crate::math::SamplerKind;
 use crate::scene::Scene;
 use crate::transport::Wanted;
 use rayon::prelude::*;
@@ -129,11 +130,16 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
     let mut counts = vec![0u64; plan.layout.blocks()];
     let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, non_finite: None };
     let first = plan.first_sample + index * plan.spp;
+    // Samples of one lattice hang together; batches must not.
+    let mut settings = *plan.settings;
+    if settings.sampler == SamplerKind::Lattice {
+        settings.seed = settings.seed.wrapping_add((index + 1) << 32);
+    }
     for y in 0..size.1 {
         for x in 0..size.0 {
             let block = plan.layout.block((x, y), size);
             for sample in first..first + plan.spp {
-                let estimate = (plan.kernel)(plan.scene, plan.settings, PathIndex { x, y, sample }, wanted);
+                let estimate = (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, wanted);
                 done.paths += 1;
                 done.lookups += estimate.lookups;
                 if !estimate.rgb.is_finite() {

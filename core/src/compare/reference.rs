@@ -46,6 +46,18 @@ impl Reference {
         }
     }
 
+    /// A picture with its standard error, that no view shows.
+    #[must_use]
+    pub fn own(
+        (width, height): (usize, usize),
+        mean: Vec<[f32; 3]>,
+        standard_error: Vec<[f32; 3]>,
+        origin: String,
+    ) -> Self {
+        let picture = Source::Own { mean, standard_error: Some(standard_error), noise: None };
+        Self { width, height, picture, target: None, origin, seed: None }
+    }
+
     /// Mean linear sRGB, row by row from the top.
     #[must_use]
     pub fn mean(&self) -> &[[f32; 3]] {

@@ -3,10 +3,11 @@
 use super::volume::{self, Limits, SampleConvention, VoxelGrid};
 use super::{embedded, fingerprint, picture};
 use crate::light::Panorama;
-use crate::medium::{Grid, Lattice, Majorants};
+use crate::medium::{BRICK_EDGE, Grid, Lattice, Majorants, Packing, Precision};
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
 use glam::{Affine3A, DAffine3, DVec3};
 use std::collections::{BTreeMap, HashMap};
+use std::hash::Hash;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -25,8 +26,8 @@ struct Key {
 pub struct Library {
     base: PathBuf,
     limits: Limits,
-    scalar: HashMap<Key, PlacedGrid<1>>,
-    rgb: HashMap<Key, PlacedGrid<3>>,
+    scalar: HashMap<(Key, Precision), PlacedGrid<1>>,
+    rgb: HashMap<(Key, Precision), PlacedGrid<3>>,
     panoramas: HashMap<Key, (Arc<Panorama>, Vec<String>)>,
     /// Files that exist in memory only, by the name that scenes use.
     in_memory: BTreeMap<String, Arc<[u8]>>,
@@ -114,7 +115,7 @@ impl Library {
 }
 
 /// Keeps a new entry, making room first.
-fn keep<V>(map: &mut HashMap<Key, V>, key: Key, value: V) {
+fn keep<K: Eq + Hash, V>(map: &mut HashMap<K, V>, key: K, value: V) {
     if map.len() >= KEPT {
         map.clear();
     }
@@ -122,7 +123,11 @@ fn keep<V>(map: &mut HashMap<Key, V>, key: Key, value: V) {
 }
 
 /// Turns voxels into a grid over the unit cube, and places that cube.
-fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>, ResourceError> {
+fn place<const C: usize>(
+    voxels: VoxelGrid,
+    path: &Path,
+    precision: Precision,
+) -> Result<PlacedGrid<C>, ResourceError> {
     if voxels.channels != C {
         return Err(ResourceError(format!(
             "{}: the grid has {} values per voxel where {C} are needed",
@@ -144,19 +149,33 @@ fn place<const C: usize>(voxels: VoxelGrid, path: &Path) -> Result<PlacedGrid<C>
     let size = DVec3::from(voxels.size.map(|n| n as f64));
     let (grid, index_from_unit) = match voxels.convention {
         SampleConvention::CellCentred => (
-            Grid::new(voxels.size, samples, Lattice::CellCentred),
+            Grid::packed(
+                voxels.size,
+                &samples,
+                Lattice::CellCentred,
+                Packing { precision, ..Packing::default() },
+            ),
             DAffine3::from_translation(min) * DAffine3::from_scale(size),
         ),
         SampleConvention::VertexCentred => {
             // One layer of background all around, so that the field fades out as it does in OpenVDB.
+            // Bricks fall on the blocks of the file's own tree.
+            let phase = voxels.min_index.map(|i| (i64::from(i) - 1).rem_euclid(BRICK_EDGE as i64) as usize);
             let (padded_size, padded) = pad(voxels.size, &samples, [voxels.background; C]);
             (
-                Grid::new(padded_size, padded, Lattice::VertexCentred),
+                Grid::packed(padded_size, &padded, Lattice::VertexCentred, Packing { precision, phase }),
                 DAffine3::from_translation(min - 1.0) * DAffine3::from_scale(size + 1.0),
             )
         }
     };
     let grid = grid.ok_or_else(|| ResourceError(format!("{}: the grid has no voxels", path.display())))?;
+    if grid.storage_error() > 0.0 {
+        notices.push(format!(
+            "{}: kept at less than full precision, which changes values by up to {:.1e}.",
+            path.display(),
+            grid.storage_error()
+        ));
+    }
     if grid.max().iter().all(|m| *m <= 0.0) {
         notices.push(format!("{}: the grid is empty, its density is 0.", path.display()));
     }
@@ -189,22 +208,22 @@ fn pad<const C: usize>(
 }
 
 impl Resources for Library {
-    fn scalar_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError> {
-        let key = self.key(&grid.file, grid.grid.as_ref());
+    fn scalar_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<1>, ResourceError> {
+        let key = (self.key(&grid.file, grid.grid.as_ref()), precision);
         if let Some(kept) = self.scalar.get(&key) {
             return Ok(kept.clone());
         }
-        let placed = place(self.read(&key, &grid.file)?, &key.path)?;
+        let placed = place(self.read(&key.0, &grid.file)?, &key.0.path, precision)?;
         keep(&mut self.scalar, key, placed.clone());
         Ok(placed)
     }
 
-    fn rgb_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<3>, ResourceError> {
-        let key = self.key(&grid.file, grid.grid.as_ref());
+    fn rgb_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<3>, ResourceError> {
+        let key = (self.key(&grid.file, grid.grid.as_ref()), precision);
         if let Some(kept) = self.rgb.get(&key) {
             return Ok(kept.clone());
         }
-        let placed = place(self.read(&key, &grid.file)?, &key.path)?;
+        let placed = place(self.read(&key.0, &grid.file)?, &key.0.path, precision)?;
         keep(&mut self.rgb, key, placed.clone());
         Ok(placed)
     }

@@ -1,7 +1,7 @@
 //! Random numbers as a pure function of (seed, pixel, sample).
 
 use super::ln;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use rand_core::RngCore;
 use rand_pcg::Pcg32;
 use serde::{Deserialize, Serialize};
@@ -191,6 +191,16 @@ impl Sampler {
     pub fn next_2d(&mut self) -> Vec2 {
         Vec2::new(self.next_1d(), self.next_1d())
     }
+}
+
+/// Three numbers uniform in [0, 1) that follow from a point's bits: whoever comes to the same point finds the same.
+#[must_use]
+#[inline]
+pub fn numbers_of_point(point: Vec3, salt: u32) -> Vec3 {
+    let [x, y, z] = point.to_array().map(f32::to_bits);
+    let a = mix(u64::from(x) << 32 | u64::from(y));
+    let b = mix(a ^ (u64::from(z) << 32 | u64::from(salt)));
+    Vec3::new(unit(b as u32), unit((b >> 32) as u32), unit(mix(b) as u32))
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every input bit reaches every output bit.

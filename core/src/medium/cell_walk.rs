@@ -91,7 +91,7 @@ impl<const C: usize> Iterator for CellWalk<'_, C> {
 mod tests {
     use super::*;
     use crate::math::{BoxRay, Ray, Sampler, uniform_direction};
-    use crate::medium::{Grid, Lattice};
+    use crate::medium::{Grid, Interpolation, Lattice};
     use glam::{Affine3A, Vec3};
 
     fn noise(size: [usize; 3], lattice: Lattice) -> Grid<1> {
@@ -113,7 +113,8 @@ mod tests {
             (Lattice::CellCentred, [30, 31, 32], 7),
         ] {
             let grid = noise(size, lattice);
-            let bounds = MajorantGrid::new(&grid, cells);
+            let bounds = MajorantGrid::new(&grid, cells, Interpolation::Trilinear);
+            let looser = MajorantGrid::new(&grid, cells, Interpolation::Stochastic);
             for i in 0..400 {
                 let target = Vec3::new(random.next_1d(), random.next_1d(), random.next_1d());
                 let mut direction = uniform_direction(random.next_2d()) * 3.0;
@@ -135,6 +136,9 @@ mod tests {
                     let here = segments.iter().find(|s| (s.t0..s.t1).contains(&t));
                     let bound = here.map_or(0.0, |s| s.bound[0]);
                     assert!(density <= bound, "{density} > {bound} at {t} of {ray:?}");
+                    let [one] = grid.look_up(ray.at(t), Interpolation::Stochastic, 0);
+                    let by_sample = looser.walk(&ray).find(|s| (s.t0..s.t1).contains(&t));
+                    assert!(one <= by_sample.map_or(0.0, |s| s.bound[0]), "{one} at {t} of {ray:?}");
                 }
             }
         }
@@ -143,13 +147,13 @@ mod tests {
     #[test]
     fn bounds_are_no_looser_than_the_neighbours_and_tight_where_a_cell_holds_its_maximum() {
         let grid = noise([16, 16, 16], Lattice::CellCentred);
-        let one = MajorantGrid::new(&grid, 1);
+        let one = MajorantGrid::new(&grid, 1, Interpolation::Trilinear);
         assert!((one.bound([0; 3])[0] / grid.max()[0] - 1.0).abs() < 1e-6);
         assert!((one.mean([0; 3]) / grid.mean()[0] - 1.0).abs() < 1e-5);
         // Halving gives bounds that hold as well, and never looser ones.
-        let mut fine = MajorantGrid::new(&grid, 8);
+        let mut fine = MajorantGrid::new(&grid, 8, Interpolation::Trilinear);
         while let Some(coarse) = fine.halved() {
-            let direct = MajorantGrid::new(&grid, coarse.cells());
+            let direct = MajorantGrid::new(&grid, coarse.cells(), Interpolation::Trilinear);
             let n = coarse.cells();
             for cell in (0..n.pow(3)).map(|i| [i % n, i / n % n, i / n / n]) {
                 assert!(coarse.bound(cell)[0] <= direct.bound(cell)[0] * 1.000_001);

@@ -1,7 +1,8 @@
 //! A scalar density: σt(x, λ) = scale · density(x) · σ(λ), albedo(λ) the same everywhere.
 
 use super::{
-    CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
+    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment,
+    Medium,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -11,8 +12,10 @@ use std::sync::Arc;
 /// A medium whose density comes from a grid.
 #[derive(Clone, Debug)]
 pub struct DensityGrid {
-    /// Density by place, trilinear.
+    /// Density by place.
     pub density: Arc<Grid<1>>,
+    /// Between samples.
+    pub interpolation: Interpolation,
     /// Bounds of the density, by cell.
     pub bounds: Arc<MajorantGrid<1>>,
     /// Extinction of density 1: scale · σ(λ), per scene unit.
@@ -27,6 +30,7 @@ pub struct DensityGrid {
 #[derive(Clone, Copy, Debug)]
 pub struct LocalDensityGrid<'a, const N: usize> {
     density: &'a Grid<1>,
+    interpolation: Interpolation,
     bounds: &'a MajorantGrid<1>,
     extinction: Sampled<N>,
     albedo: Sampled<N>,
@@ -41,6 +45,7 @@ impl Medium for DensityGrid {
     fn local<const N: usize, C: Components<N>>(&self, components: &C) -> LocalDensityGrid<'_, N> {
         LocalDensityGrid {
             density: &self.density,
+            interpolation: self.interpolation,
             bounds: &self.bounds,
             extinction: components.evaluate(&self.extinction),
             albedo: components.evaluate(&self.albedo),
@@ -58,7 +63,7 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
 
     #[inline]
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
-        let [density] = self.density.at(point);
+        let [density] = self.density.look_up(point, self.interpolation, 0);
         Coefficients::new(self.extinction * density, self.albedo, majorant)
     }
 

@@ -1,6 +1,6 @@
 //! Local upper bounds of a field: one per cell of a coarse lattice over the unit cube.
 
-use super::{CellWalk, Grid};
+use super::{CellWalk, Grid, Interpolation};
 use crate::math::BoxRay;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -20,16 +20,18 @@ pub struct MajorantGrid<const C: usize> {
 }
 
 impl<const C: usize> MajorantGrid<C> {
-    /// Bounds the trilinear field of `grid` over every cell, neighbouring samples included.
+    /// Bounds the field that look-ups see over every cell, neighbouring samples included: a stochastic look-up
+    /// may meet any of those.
     ///
     /// Trilinear interpolation is linear along every axis, so it is largest at the samples and where the
     /// cell's faces cut the lattice; taking the maximum axis by axis never falls below that, and exceeds
     /// it by less than the largest neighbouring sample does.
     #[must_use]
-    pub fn new(grid: &Grid<C>, cells: usize) -> Self {
+    pub fn new(grid: &Grid<C>, cells: usize, interpolation: Interpolation) -> Self {
         let cells = cells.max(1);
-        let spans: [Vec<Span>; 3] =
-            std::array::from_fn(|axis| (0..cells).map(|i| Span::of_cell(grid, axis, i, cells)).collect());
+        let spans: [Vec<Span>; 3] = std::array::from_fn(|axis| {
+            (0..cells).map(|i| Span::of_cell(grid, (axis, i, cells), interpolation)).collect()
+        });
         let (bound, mean): (Vec<_>, Vec<_>) = (0..cells * cells)
             .into_par_iter()
             .flat_map_iter(|yz| {
@@ -135,12 +137,21 @@ struct Span {
 }
 
 impl Span {
-    fn of_cell<const C: usize>(grid: &Grid<C>, axis: usize, cell: usize, cells: usize) -> Self {
+    fn of_cell<const C: usize>(
+        grid: &Grid<C>,
+        (axis, cell, cells): (usize, usize, usize),
+        interpolation: Interpolation,
+    ) -> Self {
         let last = (grid.size()[axis] - 1) as f32;
         let index = |edge: usize| grid.index_from_unit(Vec3::splat(edge as f32 / cells as f32))[axis];
         let from = (index(cell) - REACH).clamp(0.0, last);
         let to = (index(cell + 1) + REACH).clamp(0.0, last);
-        Self { from, to, first: from.floor() as usize, last: to.ceil() as usize }
+        let (first, last) = (from.floor(), to.ceil());
+        let (from, to) = match interpolation {
+            Interpolation::Trilinear => (from, to),
+            Interpolation::Stochastic => (first, last),
+        };
+        Self { from, to, first: first as usize, last: last as usize }
     }
 
     /// The largest value of the piecewise linear function through `values` (samples `first..=last`).
@@ -157,6 +168,9 @@ impl Span {
 
 /// Bound and mean of one cell.
 fn summary<const C: usize>(grid: &Grid<C>, [x, y, z]: [&Span; 3]) -> ([f32; C], f32) {
+    if grid.is_empty([x.first, y.first, z.first], [x.last, y.last, z.last]) {
+        return ([0.0; C], 0.0);
+    }
     let mut bound = [0.0f32; C];
     let mut mean = 0.0f32;
     for c in 0..C {

@@ -1,6 +1,6 @@
 //! All majorant grids of a field: made when they are first asked for, and kept.
 
-use super::{Grid, MajorantGrid};
+use super::{Grid, Interpolation, MajorantGrid};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -8,31 +8,51 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub const MAX_MAJORANT_CELLS: u32 = 128;
 
 /// What crossing a majorant cell costs, in density look-ups.
-const CELL_COST: f32 = 0.08;
+const CELL_COST: f32 = 0.12;
 
 /// The majorant grids of one field, by resolution. Edits of scale, spectra or albedo only choose among
 /// them; voxels are read once per resolution.
 #[derive(Debug)]
 pub struct Majorants<const C: usize> {
     grid: Arc<Grid<C>>,
+    trilinear: Kept<C>,
+    stochastic: Kept<C>,
+}
+
+/// Grids that bound one kind of look-up.
+#[derive(Debug)]
+struct Kept<const C: usize> {
     /// Powers of two, the coarsest first.
     levels: OnceLock<Vec<Arc<MajorantGrid<C>>>>,
     others: Mutex<BTreeMap<u32, Arc<MajorantGrid<C>>>>,
+}
+
+impl<const C: usize> Default for Kept<C> {
+    fn default() -> Self {
+        Self { levels: OnceLock::new(), others: Mutex::default() }
+    }
 }
 
 impl<const C: usize> Majorants<C> {
     /// Of a field; nothing is computed yet.
     #[must_use]
     pub fn new(grid: Arc<Grid<C>>) -> Self {
-        Self { grid, levels: OnceLock::new(), others: Mutex::default() }
+        Self { grid, trilinear: Kept::default(), stochastic: Kept::default() }
     }
 
-    /// From one cell to about one sample per cell, at most [`MAX_MAJORANT_CELLS`] per axis.
-    fn levels(&self) -> &[Arc<MajorantGrid<C>>] {
-        self.levels.get_or_init(|| {
+    fn kept(&self, interpolation: Interpolation) -> &Kept<C> {
+        match interpolation {
+            Interpolation::Trilinear => &self.trilinear,
+            Interpolation::Stochastic => &self.stochastic,
+        }
+    }
+
+    /// From one cell to about one per two samples, at most [`MAX_MAJORANT_CELLS`] per axis.
+    fn levels(&self, interpolation: Interpolation) -> &[Arc<MajorantGrid<C>>] {
+        self.kept(interpolation).levels.get_or_init(|| {
             let longest = self.grid.size().into_iter().fold(1, usize::max) as u32;
             let finest = (longest.next_power_of_two() / 2).clamp(1, MAX_MAJORANT_CELLS);
-            let mut level = MajorantGrid::new(&self.grid, finest as usize);
+            let mut level = MajorantGrid::new(&self.grid, finest as usize, interpolation);
             let mut levels = Vec::new();
             while let Some(half) = level.halved() {
                 levels.push(Arc::new(std::mem::replace(&mut level, half)));
@@ -43,27 +63,29 @@ impl<const C: usize> Majorants<C> {
         })
     }
 
-    /// The grid of `cells` per axis.
+    /// The grid of `cells` per axis, for look-ups of one kind.
     #[must_use]
-    pub fn at(&self, cells: u32) -> Arc<MajorantGrid<C>> {
+    pub fn at(&self, cells: u32, interpolation: Interpolation) -> Arc<MajorantGrid<C>> {
         let cells = cells.clamp(1, MAX_MAJORANT_CELLS);
-        if let Some(level) = self.levels().iter().find(|level| level.cells() == cells as usize) {
+        let same = |level: &&Arc<MajorantGrid<C>>| level.cells() == cells as usize;
+        if let Some(level) = self.levels(interpolation).iter().find(same) {
             return Arc::clone(level);
         }
-        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
-        let make = || Arc::new(MajorantGrid::new(&self.grid, cells as usize));
+        let kept = self.kept(interpolation);
+        let mut others = kept.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let make = || Arc::new(MajorantGrid::new(&self.grid, cells as usize, interpolation));
         Arc::clone(others.entry(cells).or_insert_with(make))
     }
 
     /// The resolution that is cheapest to fly through, where a field value of 1 means `extinction` mean
     /// free paths across the box: finer cells cost more steps, coarser ones more null collisions.
     #[must_use]
-    pub fn cheapest(&self, extinction: f32) -> Arc<MajorantGrid<C>> {
+    pub fn cheapest(&self, extinction: f32, interpolation: Interpolation) -> Arc<MajorantGrid<C>> {
         let cost = |level: &MajorantGrid<C>| {
             // A line through the box crosses up to three faces per cell and axis, half of that on average.
             CELL_COST * 1.5 * level.cells() as f32 + level.mean_bound() * extinction
         };
-        let best = self.levels().iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        best.map_or_else(|| self.at(1), Arc::clone)
+        let best = self.levels(interpolation).iter().min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        best.map_or_else(|| self.at(1, interpolation), Arc::clone)
     }
 }

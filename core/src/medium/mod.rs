@@ -20,7 +20,7 @@ mod rgb_grids;
 pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
-pub use grid::{Grid, Lattice};
+pub use grid::{BRICK_EDGE, Grid, Interpolation, Lattice, Packing, Precision};
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;

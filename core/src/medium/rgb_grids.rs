@@ -6,7 +6,8 @@
 
 use super::density_grid::DensitySegments;
 use super::{
-    CellWalk, Coefficients, Grid, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment, Medium,
+    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment,
+    Medium,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -38,14 +39,20 @@ pub enum AlbedoField {
 pub struct RgbGrids {
     extinction: ExtinctionField,
     albedo: AlbedoField,
+    interpolation: Interpolation,
     majorant: MajorantPolicy,
 }
 
 impl RgbGrids {
     /// Combines the two fields.
     #[must_use]
-    pub fn new(extinction: ExtinctionField, albedo: AlbedoField, majorant: MajorantPolicy) -> Self {
-        Self { extinction, albedo, majorant }
+    pub fn new(
+        extinction: ExtinctionField,
+        albedo: AlbedoField,
+        interpolation: Interpolation,
+        majorant: MajorantPolicy,
+    ) -> Self {
+        Self { extinction, albedo, interpolation, majorant }
     }
 }
 
@@ -102,15 +109,18 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         Self: 'a;
 
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
+        let interpolation = self.medium.interpolation;
         let extinction = match &self.medium.extinction {
             ExtinctionField::Uniform(_) => self.extinction,
-            ExtinctionField::Density(grid, ..) => self.extinction * grid.at(point)[0],
-            ExtinctionField::Rgb(grid, ..) => self.extinction * self.upsample(grid.at(point)),
+            ExtinctionField::Density(grid, ..) => self.extinction * grid.look_up(point, interpolation, 0)[0],
+            ExtinctionField::Rgb(grid, ..) => {
+                self.extinction * self.upsample(grid.look_up(point, interpolation, 0))
+            }
         };
         let albedo = match &self.medium.albedo {
             AlbedoField::Uniform(_) => self.albedo,
             AlbedoField::Rgb(grid, grid_from_unit) => {
-                self.upsample(grid.at(grid_from_unit.transform_point3(point)))
+                self.upsample(grid.look_up(grid_from_unit.transform_point3(point), interpolation, 1))
             }
         };
         Coefficients::new(extinction, albedo, majorant)

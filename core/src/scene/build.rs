@@ -9,7 +9,7 @@ use crate::light::{
 };
 use crate::medium::{
     AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantGrid, MajorantPolicy,
-    Majorants, RgbGrids,
+    Majorants, Precision, RgbGrids,
 };
 use crate::phase::Phase;
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
@@ -39,17 +39,17 @@ pub struct ResourceError(pub String);
 
 /// Where a scene's files come from. Implementations keep what they have read.
 pub trait Resources {
-    /// A scalar grid.
+    /// A scalar grid, kept at a precision.
     ///
     /// # Errors
     /// When the file is missing, damaged, of another kind, or too large.
-    fn scalar_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError>;
+    fn scalar_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<1>, ResourceError>;
 
-    /// An RGB grid.
+    /// An RGB grid, kept at a precision.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
-    fn rgb_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<3>, ResourceError>;
+    fn rgb_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<3>, ResourceError>;
 
     /// A picture of the surroundings, and what reading it repaired.
     ///
@@ -170,7 +170,7 @@ fn build_medium(
     let extinction = match &doc.density {
         DensityDoc::Uniform {} => ExtinctionField::Uniform(sigma),
         DensityDoc::Grid(grid) => {
-            let read = resources.scalar_grid(grid).map_err(at("medium.density"))?;
+            let read = resources.scalar_grid(grid, doc.precision).map_err(at("medium.density"))?;
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
@@ -179,7 +179,7 @@ fn build_medium(
             ExtinctionField::Density(read.grid, bounds, sigma)
         }
         DensityDoc::RgbGrid(grid) => {
-            let read = resources.rgb_grid(grid).map_err(at("medium.density"))?;
+            let read = resources.rgb_grid(grid, doc.precision).map_err(at("medium.density"))?;
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
@@ -191,7 +191,7 @@ fn build_medium(
     let albedo = match &doc.albedo_grid {
         None => AlbedoField::Uniform(coefficient(&doc.albedo)),
         Some(grid) => {
-            let read = resources.rgb_grid(grid).map_err(at("medium.albedo_grid"))?;
+            let read = resources.rgb_grid(grid, doc.precision).map_err(at("medium.albedo_grid"))?;
             if read.grid.max().iter().any(|a| *a > 1.0) {
                 return Err(at("medium.albedo_grid")(ResourceError(format!(
                     "{}: an albedo of {} is above 1; scale the grid to at most 1",
@@ -227,9 +227,19 @@ fn build_medium(
             AnyMedium::Homogeneous(Homogeneous { extinction, albedo, majorant })
         }
         (ExtinctionField::Density(density, bounds, extinction), AlbedoField::Uniform(albedo)) => {
-            AnyMedium::DensityGrid(DensityGrid { density, bounds, extinction, albedo, majorant })
+            let interpolation = doc.interpolation;
+            AnyMedium::DensityGrid(DensityGrid {
+                density,
+                interpolation,
+                bounds,
+                extinction,
+                albedo,
+                majorant,
+            })
         }
-        (extinction, albedo) => AnyMedium::RgbGrids(RgbGrids::new(extinction, albedo, majorant)),
+        (extinction, albedo) => {
+            AnyMedium::RgbGrids(RgbGrids::new(extinction, albedo, doc.interpolation, majorant))
+        }
     };
     Ok((medium, placed, info))
 }
@@ -247,8 +257,8 @@ fn bounds_of<const C: usize>(
         (world_from_unit.x_axis.length() + world_from_unit.y_axis.length() + world_from_unit.z_axis.length())
             / 3.0;
     let bounds = match doc.majorant.resolution {
-        Some(cells) => placed.majorants.at(cells),
-        None => placed.majorants.cheapest(extinction * edge * doc.majorant.factor),
+        Some(cells) => placed.majorants.at(cells, doc.interpolation),
+        None => placed.majorants.cheapest(extinction * edge * doc.majorant.factor, doc.interpolation),
     };
     info.majorant_cells = Some(bounds.cells());
     bounds
@@ -257,6 +267,8 @@ fn bounds_of<const C: usize>(
 fn describe<const C: usize>(info: &mut SceneInfo, grid: &Grid<C>) {
     info.grid_size = Some(grid.size());
     info.memory_bytes += grid.bytes();
+    info.occupied_voxels += grid.occupied();
+    info.storage_error = info.storage_error.max(grid.storage_error());
     info.max_density = grid.max().into_iter().fold(0.0, f32::max);
     info.mean_density = grid.mean().into_iter().fold(0.0, f32::max);
 }

@@ -57,6 +57,10 @@ pub struct SceneInfo {
     pub world_min: [f32; 3],
     /// Highest corner.
     pub world_max: [f32; 3],
+    /// Voxels of the density that are not zero.
+    pub occupied_voxels: usize,
+    /// The largest error in any density that keeping it at less than full precision has made.
+    pub storage_error: f32,
     /// Bytes that grids take.
     pub memory_bytes: usize,
 }

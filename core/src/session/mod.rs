@@ -10,6 +10,7 @@
 //! The caller's thread never waits for rendering, and an idle session uses no CPU.
 
 mod active;
+mod batch;
 mod coordinator;
 mod keeper;
 mod mailbox;
@@ -21,6 +22,7 @@ mod turns;
 use crate::film::Snapshot;
 use crate::io::Library;
 use crate::scene::{Fairness, Limits, SceneDoc, SceneInfo};
+pub use batch::{Batch, Budget, render};
 use mailbox::{Command, Mailbox};
 pub use probe::{PixelSample, Probe};
 use std::sync::Arc;

@@ -31,6 +31,12 @@ pub struct PixelSample {
 }
 
 impl Probe {
+    /// Paths of a scene by an estimator's kernel.
+    #[must_use]
+    pub fn new(scene: Arc<Scene>, kernel: Kernel, settings: Settings) -> Self {
+        Self { scene, kernel, settings }
+    }
+
     /// The path of sample number `sample` of a pixel, exactly as the film has received it.
     pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
         (self.kernel)(&self.scene, &self.settings, PathIndex { x, y, sample }, wanted)

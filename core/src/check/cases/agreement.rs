@@ -9,7 +9,9 @@ use super::super::{Answer, Case, CheckError, Family, fixture};
 use super::ASIDE;
 use crate::io::Library;
 use crate::light::Panorama;
-use crate::scene::{Absorption, Mode};
+use crate::math::SamplerKind;
+use crate::scene::{Absorption, DirectionSampling, Mode};
+use crate::spectrum::WavelengthSampling;
 
 pub(super) const FAMILY: Family = Family {
     id: "agreement",
@@ -147,8 +149,18 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.mode = Mode::Rgb;
         }),
+        plume.varied("agreement/plume-uniform-guided", |d| {
+            d.estimator.wavelengths = WavelengthSampling::Uniform;
+            d.estimator.directions = DirectionSampling::TowardsLights;
+            d.medium.majorant.resolution = Some(1);
+        }),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
+        cloud.varied("agreement/cloud-guided-lattice", |d| {
+            d.estimator.directions = DirectionSampling::TowardsLights;
+            d.estimator.sampler = SamplerKind::Lattice;
+            d.medium.majorant.resolution = Some(9);
+        }),
         cloud,
         scene("inside", INSIDE)?,
         grids.varied("agreement/rgb-grids-rgb", |d| d.estimator.mode = Mode::Rgb),

@@ -260,6 +260,7 @@ impl SceneDoc {
     pub fn target_part(&self) -> Self {
         let mut doc = self.scene_part();
         doc.medium.majorant = MajorantDoc::default();
+        doc.medium.interpolation = Interpolation::default();
         doc.estimator.mode = self.estimator.mode;
         doc.estimator.max_depth = self.estimator.max_depth;
         doc

@@ -1,6 +1,6 @@
 //! The medium as edited.
 
-use crate::medium::MajorantDoc;
+use crate::medium::{Interpolation, MajorantDoc, Precision};
 use crate::phase::PhaseDoc;
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
@@ -22,6 +22,10 @@ pub struct MediumDoc {
     pub albedo_grid: Option<GridRef>,
     /// Where the density comes from.
     pub density: DensityDoc,
+    /// How many bits a value of a grid takes in memory.
+    pub precision: Precision,
+    /// How grids are looked up between samples.
+    pub interpolation: Interpolation,
     /// Where the box stands.
     pub placement: PlacementDoc,
     /// The majorant that free flights are sampled from.
@@ -38,6 +42,8 @@ impl Default for MediumDoc {
             albedo: SpectrumDoc::Constant(0.9),
             albedo_grid: None,
             density: DensityDoc::default(),
+            precision: Precision::F32,
+            interpolation: Interpolation::Trilinear,
             placement: PlacementDoc::default(),
             majorant: MajorantDoc::default(),
             phase: PhaseDoc::default(),

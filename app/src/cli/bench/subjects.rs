@@ -1,0 +1,55 @@
+//! The scenes of a benchmark, with their references.
+
+use super::Arguments;
+use crate::cli::{Failure, source};
+use majorant_core::bench::{ReferencePlan, Subject};
+use majorant_core::compare::Reference;
+use majorant_core::estimator;
+use majorant_core::io::{embedded, scene_file};
+use std::path::Path;
+
+/// A run for the reference is this many times as long as a trial.
+const REFERENCE_TIMES: f64 = 8.0;
+/// What it takes at least, in seconds.
+const REFERENCE_LEAST: f64 = 4.0;
+
+pub(super) fn load(arguments: &Arguments) -> Result<Vec<Subject>, Failure> {
+    let mut names = arguments.scenes.clone();
+    if names.is_empty() {
+        names = embedded::SCENES.iter().map(|scene| scene.name.to_owned()).collect();
+    }
+    if arguments.reference.is_some() && names.len() != 1 {
+        let message = "--reference is a picture of one scene: name that scene, or leave --reference out";
+        return Err(Failure::Message(message.into()));
+    }
+    names.iter().map(|name| subject(name, arguments)).collect()
+}
+
+fn subject(name: &str, arguments: &Arguments) -> Result<Subject, Failure> {
+    let source = source::load(name)?;
+    let doc = scene_file::override_keys(&source.doc, &arguments.set)?;
+    let beside = Path::new(name).parent().map(|folder| folder.join("reference.exr"));
+    let beside = beside.filter(|file| arguments.reference_seconds.is_none() && file.exists());
+    let reference = match arguments.reference.as_ref().or(beside.as_ref()) {
+        Some(file) => ReferencePlan::Given(Box::new(Reference::read(file)?)),
+        None => ReferencePlan::Own {
+            estimator: estimator::find("uni-nee-mis")
+                .ok_or_else(|| Failure::Message("Uni+NEE MIS is missing".into()))?,
+            seconds: arguments
+                .reference_seconds
+                .unwrap_or((REFERENCE_TIMES * arguments.seconds).max(REFERENCE_LEAST)),
+        },
+    };
+    Ok(Subject { name: title(name), doc, library: source.resources, reference })
+}
+
+/// A file called scene.toml goes by its folder.
+fn title(name: &str) -> String {
+    let path = Path::new(name);
+    let stem = path.file_stem().map_or_else(|| name.into(), |s| s.to_string_lossy());
+    let folder = path.parent().and_then(Path::file_name).map(|f| f.to_string_lossy());
+    match folder {
+        Some(folder) if stem == "scene" => folder.into_owned(),
+        _ => stem.into_owned(),
+    }
+}

@@ -1,0 +1,58 @@
+//! Rows as text.
+
+use majorant_core::bench::{Interval, Row};
+use majorant_core::compare::report::words;
+
+const WIDTHS: [usize; 9] = [14, 13, 7, 7, 9, 8, 9, 27, 22];
+
+/// The heading, as wide as the lines.
+pub(super) fn heading() -> String {
+    let cells =
+        ["scene", "estimator", "spp", "CPU s", "Mpaths/s", "look-ups", "relMSE", "efficiency", "speed-up"];
+    padded(cells.map(str::to_owned))
+}
+
+/// One row.
+pub(super) fn line(row: &Row) -> String {
+    let star = if row.heavy_tailed { "*" } else { "" };
+    padded([
+        row.scene.clone(),
+        row.estimator.to_owned(),
+        words::number(row.spp),
+        words::number(row.cpu_seconds),
+        format!("{:.3}", row.paths_per_second / 1e6),
+        format!("{:.2}", row.lookups_per_path),
+        words::number(row.relmse.mean),
+        format!("{}{star}", interval(&row.efficiency)),
+        interval(&row.speedup),
+    ])
+}
+
+fn interval(i: &Interval) -> String {
+    if i.lo == i.hi {
+        return words::number(i.mean);
+    }
+    format!("{} [{}, {}]", words::number(i.mean), words::number(i.lo), words::number(i.hi))
+}
+
+fn padded(cells: [String; 9]) -> String {
+    let cell = |(i, text): (usize, &String)| {
+        if i < 2 || i > 6 { format!("{text:<0$}", WIDTHS[i]) } else { format!("{text:>0$}", WIDTHS[i]) }
+    };
+    cells.iter().enumerate().map(cell).collect::<Vec<_>>().join("  ").trim_end().to_owned()
+}
+
+/// What errors were measured against, and what to beware of.
+pub(super) fn notes(rows: &[Row]) -> Vec<String> {
+    let mut notes: Vec<String> = Vec::new();
+    for row in rows {
+        let note = format!("{}: errors against {}", row.scene, row.reference);
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    if rows.iter().any(|row| row.heavy_tailed) {
+        notes.push("* one run has most of the error: more repeats, or longer ones, would tell".into());
+    }
+    notes
+}

@@ -1,0 +1,189 @@
+//! What the trials of one estimator on one scene amount to.
+
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// One run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Seconds from start to end.
+    pub wall_seconds: f64,
+    /// CPU seconds of all threads.
+    pub cpu_seconds: f64,
+    /// Paths traced.
+    pub paths: u64,
+    /// Look-ups of the medium.
+    pub lookups: u64,
+    /// Relative mean squared error, less what the reference's own noise adds.
+    pub relmse: f64,
+}
+
+/// A mean and where it lies with 95 % confidence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Interval {
+    /// The mean.
+    pub mean: f64,
+    /// Lower end.
+    pub lo: f64,
+    /// Upper end; infinite if even that much is not known.
+    pub hi: f64,
+}
+
+/// An estimator on a scene. As JSON every field is a key.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// The scene.
+    pub scene: String,
+    /// The estimator's id.
+    pub estimator: &'static str,
+    /// Runs.
+    pub repeats: usize,
+    /// Worker threads.
+    pub threads: usize,
+    /// Mean samples per pixel of a run.
+    pub spp: f64,
+    /// Mean seconds of a run.
+    pub wall_seconds: f64,
+    /// Mean CPU seconds of a run.
+    pub cpu_seconds: f64,
+    /// Paths per second of wall-clock time.
+    pub paths_per_second: f64,
+    /// Look-ups per path.
+    pub lookups_per_path: f64,
+    /// Relative mean squared error of a run.
+    pub relmse: Interval,
+    /// 1/(relMSE · CPU seconds).
+    pub efficiency: Interval,
+    /// Look-ups · relMSE: how many bring the error to 1.
+    pub lookups_to_unit_error: Interval,
+    /// Efficiency relative to the first estimator.
+    pub speedup: Interval,
+    /// Whether one run's error is more than half of all: rare bright paths decide, and intervals are too narrow.
+    pub heavy_tailed: bool,
+    /// What errors were measured against.
+    pub reference: String,
+}
+
+/// The half width of a 95 % interval, in standard errors of a mean of `n`.
+fn quantile(n: usize) -> f64 {
+    StudentsT::new(0.0, 1.0, n as f64 - 1.0).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
+}
+
+/// Mean and standard error of the mean.
+fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    let variance = values.map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    (mean, (variance / n).sqrt())
+}
+
+impl Interval {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let t = quantile(values.clone().count());
+        let (mean, error) = moments(values);
+        Self { mean, lo: (mean - t * error).max(0.0), hi: mean + t * error }
+    }
+
+    /// Of one over a positive quantity.
+    fn inverse(self) -> Self {
+        Self { mean: 1.0 / self.mean, lo: 1.0 / self.hi, hi: 1.0 / self.lo }
+    }
+}
+
+impl Row {
+    /// Sums up trials; `first` are those that the ratio is relative to.
+    #[must_use]
+    pub fn new(
+        scene: String,
+        estimator: &'static str,
+        trials: &[Trial],
+        first: &[Trial],
+        (threads, reference): (usize, String),
+    ) -> Self {
+        let mean = |of: fn(&Trial) -> f64| trials.iter().map(of).sum::<f64>() / trials.len() as f64;
+        let cost = |t: &Trial| t.relmse * t.cpu_seconds;
+        let errors = trials.iter().map(|t| t.relmse);
+        let total: f64 = errors.clone().sum();
+        let largest = errors.clone().fold(0.0, f64::max);
+        Self {
+            scene,
+            estimator,
+            repeats: trials.len(),
+            threads,
+            spp: mean(|t| f64::from(t.spp)),
+            wall_seconds: mean(|t| t.wall_seconds),
+            cpu_seconds: mean(|t| t.cpu_seconds),
+            paths_per_second: mean(|t| t.paths as f64 / t.wall_seconds),
+            lookups_per_path: mean(|t| t.lookups as f64 / t.paths as f64),
+            relmse: Interval::of(errors),
+            efficiency: Interval::of(trials.iter().map(cost)).inverse(),
+            lookups_to_unit_error: Interval::of(trials.iter().map(|t| t.lookups as f64 * t.relmse)),
+            speedup: speedup(trials.iter().map(cost), first.iter().map(cost)),
+            heavy_tailed: trials.len() > 2 && largest > 0.5 * total,
+            reference,
+        }
+    }
+}
+
+/// How many times less one costs than the other. The interval is that of the logarithm, to first order.
+fn speedup(own: impl Iterator<Item = f64> + Clone, first: impl Iterator<Item = f64> + Clone) -> Interval {
+    if own.clone().eq(first.clone()) {
+        return Interval { mean: 1.0, lo: 1.0, hi: 1.0 };
+    }
+    let t = quantile(own.clone().count());
+    let ((own, own_error), (first, first_error)) = (moments(own), moments(first));
+    let ratio = first / own;
+    let spread = (t * (own_error / own).hypot(first_error / first)).exp();
+    Interval { mean: ratio, lo: ratio / spread, hi: ratio * spread }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Sampler;
+
+    fn trial(relmse: f64, cpu_seconds: f64) -> Trial {
+        Trial { spp: 8, wall_seconds: 1.0, cpu_seconds, paths: 100, lookups: 400, relmse }
+    }
+
+    fn row(trials: &[Trial], first: &[Trial]) -> Row {
+        Row::new("scene".into(), "nee", trials, first, (2, "itself".into()))
+    }
+
+    #[test]
+    fn figures_follow_their_definitions() {
+        let trials = [trial(0.1, 2.0), trial(0.3, 2.0)];
+        let r = row(&trials, &[trial(0.4, 2.0), trial(0.4, 2.0)]);
+        assert!((r.relmse.mean - 0.2).abs() < 1e-12 && (r.efficiency.mean - 2.5).abs() < 1e-12);
+        assert!((r.speedup.mean - 2.0).abs() < 1e-12 && r.speedup.lo < 2.0 && r.speedup.hi > 2.0);
+        assert!((r.lookups_to_unit_error.mean - 80.0).abs() < 1e-9);
+        assert_eq!((r.lookups_per_path, r.paths_per_second), (4.0, 100.0));
+        // Two trials that differ that much leave the error open towards zero.
+        assert_eq!((r.relmse.lo, r.efficiency.hi), (0.0, f64::INFINITY));
+        assert_eq!(row(&trials, &trials).speedup, Interval { mean: 1.0, lo: 1.0, hi: 1.0 });
+        assert!(!r.heavy_tailed && row(&[0.1, 0.1, 0.9].map(|e| trial(e, 1.0)), &trials).heavy_tailed);
+    }
+
+    #[test]
+    fn intervals_hold_the_truth_as_often_as_they_say() {
+        let runs = 400u64;
+        let held = |which: fn(&Row) -> (Interval, f64)| {
+            let holds = |run: &u64| {
+                let mut random = Sampler::new(11, *run, 0);
+                // A sum of a few exponentials of mean 1: skewed, as errors are.
+                let mut error =
+                    || (0..24).map(|_| f64::from(random.next_optical_depth())).sum::<f64>() / 24.0;
+                let own: Vec<_> = (0..6).map(|_| trial(error(), 1.0)).collect();
+                let first: Vec<_> = (0..6).map(|_| trial(3.0 * error(), 1.0)).collect();
+                let (interval, truth) = which(&row(&own, &first));
+                (interval.lo..=interval.hi).contains(&truth)
+            };
+            (0..runs).filter(holds).count()
+        };
+        for count in [held(|r| (r.efficiency, 1.0)), held(|r| (r.speedup, 3.0)), held(|r| (r.relmse, 1.0))] {
+            assert!((365..=396).contains(&count), "{count} of {runs}");
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Runs a plan.
+
+use super::{Plan, ReferencePlan, Row, Subject, Trial};
+use crate::compare::Reference;
+use crate::estimator::{self, Entry};
+use crate::film::Images;
+use crate::math::SamplerKind;
+use crate::measure::{self, MeasureError, Picture, Region};
+use crate::scene::{Scene, SceneError, build};
+use crate::session::{Batch, Budget, Probe, render};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::Arc;
+
+/// Why a benchmark came to no end.
+#[derive(Debug, thiserror::Error)]
+pub enum BenchError {
+    /// A scene could not be frozen.
+    #[error("{scene}: {source}")]
+    Scene {
+        /// Which.
+        scene: String,
+        /// What is wrong.
+        source: SceneError,
+    },
+    /// An unbiased benchmark of a biased picture means nothing.
+    #[error("{scene}: {reason}: its error does not fall with time. Switch that off to measure speed.")]
+    Biased {
+        /// Which.
+        scene: String,
+        /// What biases it.
+        reason: &'static str,
+    },
+    /// The reference is of another size.
+    #[error("{scene}: {source}")]
+    Reference {
+        /// Which.
+        scene: String,
+        /// What does not fit.
+        source: MeasureError,
+    },
+    /// Less than two runs have no scatter.
+    #[error("{0} repeats have no scatter: run at least 2")]
+    TooFew(u32),
+    /// The operating system refused threads.
+    #[error("{threads} worker threads could not be started: {reason}. Ask for fewer with --threads.")]
+    Threads {
+        /// How many.
+        threads: usize,
+        /// What it said.
+        reason: String,
+    },
+}
+
+/// How far a benchmark is.
+#[derive(Clone, Debug)]
+pub struct Progress<'a> {
+    /// Runs that are done, references included.
+    pub done: usize,
+    /// Of so many.
+    pub of: usize,
+    /// What comes next.
+    pub next: String,
+    /// Rows of the scene that has just been finished.
+    pub rows: &'a [Row],
+}
+
+/// Runs every estimator on every scene. Rows come scene by scene.
+///
+/// # Errors
+/// When a scene cannot be frozen, is biased on purpose, or a reference does not fit.
+pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>, BenchError> {
+    if plan.repeats < 2 {
+        return Err(BenchError::TooFew(plan.repeats));
+    }
+    let threads = plan
+        .threads
+        .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|e| BenchError::Threads { threads, reason: e.to_string() })?;
+    let per_scene = 1 + plan.repeats as usize * plan.estimators.len();
+    let mut rows = Vec::new();
+    let mut done = 0;
+    for subject in &plan.subjects {
+        let runner = Runner::new(subject, &pool)?;
+        let mut report = |next: String, rows: &[Row]| {
+            progress(&Progress { done, of: per_scene * plan.subjects.len(), next, rows });
+            done += 1;
+        };
+        report(format!("{}  reference", subject.name), &[]);
+        let reference = runner.reference()?;
+        let mut trials = vec![Vec::new(); plan.estimators.len()];
+        for repeat in 0..plan.repeats {
+            for (entry, trials) in plan.estimators.iter().zip(&mut trials) {
+                report(format!("{}  {} {}/{}", subject.name, entry.id, repeat + 1, plan.repeats), &[]);
+                trials.push(runner.trial(entry, u64::from(repeat), plan.budget, &reference)?);
+            }
+        }
+        let first = rows.len();
+        rows.extend(plan.estimators.iter().zip(&trials).map(|(entry, own)| {
+            let about = (threads, reference.origin.clone());
+            Row::new(subject.name.clone(), entry.id, own, &trials[0], about)
+        }));
+        progress(&Progress {
+            done,
+            of: per_scene * plan.subjects.len(),
+            next: String::new(),
+            rows: &rows[first..],
+        });
+    }
+    Ok(rows)
+}
+
+struct Runner<'a> {
+    subject: &'a Subject,
+    scene: Arc<Scene>,
+    pool: &'a ThreadPool,
+}
+
+impl<'a> Runner<'a> {
+    fn new(subject: &'a Subject, pool: &'a ThreadPool) -> Result<Self, BenchError> {
+        let scene = subject.name.clone();
+        let mut library = subject.library.clone();
+        let frozen = pool
+            .install(|| build(&subject.doc, &mut library))
+            .map_err(|source| BenchError::Scene { scene: scene.clone(), source })?;
+        let biased = estimator::REGISTRY.first().and_then(|entry| entry.bias(&subject.doc));
+        match biased {
+            Some(reason) => Err(BenchError::Biased { scene, reason }),
+            None => Ok(Self { subject, scene: Arc::new(frozen), pool }),
+        }
+    }
+
+    /// A run under a seed of its own.
+    fn batch(&self, entry: &Entry, seed: u64, sampler: SamplerKind, budget: Budget) -> Batch {
+        let mut settings = estimator::Settings::new(&self.subject.doc.estimator, seed);
+        settings.sampler = sampler;
+        let probe = Probe::new(Arc::clone(&self.scene), entry.kernel, settings);
+        render(&probe, self.pool, budget)
+    }
+
+    fn reference(&self) -> Result<Reference, BenchError> {
+        match &self.subject.reference {
+            ReferencePlan::Given(reference) => Ok((**reference).clone()),
+            ReferencePlan::Own { estimator, seconds } => {
+                let seed = self.subject.doc.render.seed.wrapping_sub(1);
+                let batch = self.batch(estimator, seed, SamplerKind::Independent, Budget::Seconds(*seconds));
+                let images = self.pool.install(|| Images::of(&batch.film));
+                let origin = format!("own run of {}, {} samples per pixel", estimator.name, batch.spp);
+                let Batch { film, .. } = batch;
+                Ok(Reference::own((film.width, film.height), images.mean, images.standard_error, origin))
+            }
+        }
+    }
+
+    fn trial(
+        &self,
+        entry: &Entry,
+        repeat: u64,
+        budget: Budget,
+        reference: &Reference,
+    ) -> Result<Trial, BenchError> {
+        let seed = self.subject.doc.render.seed.wrapping_add(repeat);
+        let batch = self.batch(entry, seed, self.subject.doc.estimator.sampler, budget);
+        let images = self.pool.install(|| Images::of(&batch.film));
+        let (width, height) = (batch.film.width, batch.film.height);
+        let picture = Picture { width, height, pixels: &images.mean };
+        let measured = relmse(&picture, reference)
+            .map_err(|source| BenchError::Reference { scene: self.subject.name.clone(), source })?;
+        Ok(Trial {
+            spp: batch.spp,
+            wall_seconds: batch.wall_seconds,
+            cpu_seconds: batch.cpu_seconds,
+            paths: batch.tally.paths,
+            lookups: batch.tally.lookups,
+            relmse: measured,
+        })
+    }
+}
+
+/// relMSE without the reference's share.
+fn relmse(picture: &Picture, reference: &Reference) -> Result<f64, MeasureError> {
+    let against = measure::Reference {
+        picture: Picture { width: reference.width, height: reference.height, pixels: reference.mean() },
+        standard_error: reference.standard_error(),
+    };
+    let whole = Region::whole(picture.width, picture.height);
+    let measure = measure::find("relmse").map(|m| m.measure);
+    measure.map_or(Ok(f64::NAN), |measure| {
+        measure(picture, &against, whole).map(|m| m.value - m.reference_share)
+    })
+}

@@ -1,0 +1,192 @@
+//! Samples in memory: bricks of 8³, of which those that hold nothing but the background are shared.
+//!
+//! ```text
+//!   brick = index[x/8, y/8, z/8]      value = values[512 · brick + x%8 + 8 (y%8) + 64 (z%8)]
+//! ```
+//!
+//! Brick 0 is the background, so that a look-up is the same everywhere. Bricks have no halo: two thirds of
+//! all cells lie within one brick, and the memory stays that of the voxels. They are laid so that a file's
+//! own blocks of 8³ fall on them.
+
+use super::Precision;
+use half::f16;
+use half::slice::HalfFloatSliceExt;
+use rayon::prelude::*;
+
+/// Samples along the edge of a brick.
+pub const BRICK_EDGE: usize = 8;
+const BRICK: usize = BRICK_EDGE * BRICK_EDGE * BRICK_EDGE;
+
+/// Samples over a box, at some precision.
+#[derive(Clone, Debug)]
+pub(super) struct Store<const C: usize> {
+    /// Bricks per axis.
+    bricks: [usize; 3],
+    /// Added to a sample's coordinates: where in its brick the box begins.
+    phase: [usize; 3],
+    index: Vec<u32>,
+    values: Values<C>,
+}
+
+#[derive(Clone, Debug)]
+enum Values<const C: usize> {
+    F32(Vec<[f32; C]>),
+    F16(Vec<[f16; C]>),
+    /// Steps of a fixed size per channel.
+    U8(Vec<[u8; C]>, [f32; C]),
+}
+
+/// Where eight samples around a cell lie.
+#[derive(Clone, Copy)]
+struct Corners([usize; 8]);
+
+impl<const C: usize> Store<C> {
+    /// Packs `size` samples, x fastest, that are `background` outside of the box.
+    pub fn pack(
+        size: [usize; 3],
+        samples: &[[f32; C]],
+        background: [f32; C],
+        phase: [usize; 3],
+        precision: Precision,
+    ) -> Self {
+        let bricks: [usize; 3] = std::array::from_fn(|a| (size[a] + phase[a]).div_ceil(BRICK_EDGE));
+        let count = bricks.iter().product::<usize>();
+        // The box that a brick covers, in samples.
+        let span = |brick: usize, axis: usize| {
+            let at = [brick % bricks[0], brick / bricks[0] % bricks[1], brick / bricks[0] / bricks[1]][axis];
+            let first = (at * BRICK_EDGE).max(phase[axis]) - phase[axis];
+            (first, ((at + 1) * BRICK_EDGE - phase[axis]).min(size[axis]))
+        };
+        let row = |y: usize, z: usize| size[0] * (y + size[1] * z);
+        let is_background = |brick: usize| {
+            let ((x0, x1), (y0, y1), (z0, z1)) = (span(brick, 0), span(brick, 1), span(brick, 2));
+            (z0..z1).all(|z| {
+                (y0..y1).all(|y| samples[row(y, z) + x0..row(y, z) + x1].iter().all(|v| *v == background))
+            })
+        };
+        let empty: Vec<bool> = (0..count).into_par_iter().map(is_background).collect();
+        let mut kept = Vec::new();
+        let index = empty.iter().enumerate().map(|(brick, empty)| {
+            if *empty {
+                return 0;
+            }
+            kept.push(brick);
+            kept.len() as u32
+        });
+        let index: Vec<u32> = index.collect();
+        let mut values = vec![background; (kept.len() + 1) * BRICK];
+        values[BRICK..].par_chunks_exact_mut(BRICK).zip(&kept).for_each(|(to, brick)| {
+            let ((x0, x1), (y0, y1), (z0, z1)) = (span(*brick, 0), span(*brick, 1), span(*brick, 2));
+            for z in z0..z1 {
+                for y in y0..y1 {
+                    let place = local([x0 + phase[0], y + phase[1], z + phase[2]]);
+                    to[place..place + x1 - x0].copy_from_slice(&samples[row(y, z) + x0..row(y, z) + x1]);
+                }
+            }
+        });
+        Self { bricks, phase, index, values: Values::at(values, precision) }
+    }
+
+    /// The value of one sample.
+    #[inline]
+    pub fn sample(&self, at: [usize; 3]) -> [f32; C] {
+        let place = self.place(at);
+        match &self.values {
+            Values::F32(values) => values[place],
+            Values::F16(values) => values[place].map(f16::to_f32),
+            Values::U8(values, step) => std::array::from_fn(|c| f32::from(values[place][c]) * step[c]),
+        }
+    }
+
+    /// The values of samples `at` and `next` along every axis, x fastest.
+    #[inline]
+    pub fn corners(&self, at: [usize; 3], next: [usize; 3]) -> [[f32; C]; 8] {
+        let places = self.corner_places(at, next);
+        match &self.values {
+            Values::F32(values) => places.0.map(|i| values[i]),
+            Values::F16(values) => {
+                let mut found = [[0.0; C]; 8];
+                for c in 0..C {
+                    // Eight at a time: one instruction where the processor has it.
+                    let halves = places.0.map(|i| values[i][c]);
+                    let mut singles = [0.0f32; 8];
+                    halves.convert_to_f32_slice(&mut singles);
+                    for (to, single) in found.iter_mut().zip(singles) {
+                        to[c] = single;
+                    }
+                }
+                found
+            }
+            Values::U8(values, step) => {
+                places.0.map(|i| std::array::from_fn(|c| f32::from(values[i][c]) * step[c]))
+            }
+        }
+    }
+
+    #[inline]
+    fn corner_places(&self, at: [usize; 3], next: [usize; 3]) -> Corners {
+        let [a, b]: [[usize; 3]; 2] = [at, next].map(|p| std::array::from_fn(|i| p[i] + self.phase[i]));
+        let within = (0..3).all(|axis| a[axis] / BRICK_EDGE == b[axis] / BRICK_EDGE);
+        if within {
+            let base = self.place(at);
+            let step: [usize; 3] = std::array::from_fn(|i| (b[i] - a[i]) << (3 * i));
+            return Corners(std::array::from_fn(|corner| {
+                base + (0..3).map(|i| if corner >> i & 1 == 1 { step[i] } else { 0 }).sum::<usize>()
+            }));
+        }
+        Corners(std::array::from_fn(|corner| {
+            self.place(std::array::from_fn(|i| if corner >> i & 1 == 1 { next[i] } else { at[i] }))
+        }))
+    }
+
+    #[inline]
+    fn place(&self, at: [usize; 3]) -> usize {
+        let [x, y, z] = std::array::from_fn(|i| at[i] + self.phase[i]);
+        let [nx, ny, _] = self.bricks;
+        let brick = x / BRICK_EDGE + nx * (y / BRICK_EDGE + ny * (z / BRICK_EDGE));
+        self.index[brick] as usize * BRICK + local([x, y, z])
+    }
+
+    /// Whether every sample of a box, both ends included, is background.
+    pub fn is_background(&self, first: [usize; 3], last: [usize; 3]) -> bool {
+        let brick =
+            |at: [usize; 3]| -> [usize; 3] { std::array::from_fn(|i| (at[i] + self.phase[i]) / BRICK_EDGE) };
+        let ([x0, y0, z0], [x1, y1, z1]) = (brick(first), brick(last));
+        let [nx, ny, _] = self.bricks;
+        (z0..=z1).all(|z| (y0..=y1).all(|y| (x0..=x1).all(|x| self.index[x + nx * (y + ny * z)] == 0)))
+    }
+
+    /// Bytes of values and index.
+    pub fn bytes(&self) -> usize {
+        let values = match &self.values {
+            Values::F32(values) => size_of_val(&values[..]),
+            Values::F16(values) => size_of_val(&values[..]),
+            Values::U8(values, _) => size_of_val(&values[..]),
+        };
+        values + size_of_val(&self.index[..])
+    }
+}
+
+#[inline]
+fn local([x, y, z]: [usize; 3]) -> usize {
+    let inside = |i: usize| i % BRICK_EDGE;
+    inside(x) + BRICK_EDGE * (inside(y) + BRICK_EDGE * inside(z))
+}
+
+impl<const C: usize> Values<C> {
+    fn at(values: Vec<[f32; C]>, precision: Precision) -> Self {
+        match precision {
+            Precision::F32 => Self::F32(values),
+            Precision::F16 => Self::F16(values.into_par_iter().map(|v| v.map(f16::from_f32)).collect()),
+            Precision::U8 => {
+                let largest = values
+                    .par_iter()
+                    .fold(|| [0.0f32; C], |max, v| std::array::from_fn(|c| max[c].max(v[c])))
+                    .reduce(|| [0.0; C], |a, b| std::array::from_fn(|c| a[c].max(b[c])));
+                let step = largest.map(|max| if max > 0.0 { max / 255.0 } else { 1.0 });
+                let code = |v: [f32; C]| std::array::from_fn(|c| (v[c] / step[c]).round() as u8);
+                Self::U8(values.into_par_iter().map(code).collect(), step)
+            }
+        }
+    }
+}
