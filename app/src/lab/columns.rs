@@ -38,6 +38,7 @@ impl LabApp {
                 opened: &opened,
                 state: &self.state,
                 stats: &self.stats,
+                latency: &self.latency,
                 settings: &self.settings,
                 grids: &self.grids,
                 commands,

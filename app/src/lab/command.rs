@@ -61,6 +61,10 @@ pub enum Command {
     ShowTab(&'static str),
     /// Opens a comparison that is set up already, by its name.
     OpenPreset(&'static str),
+    /// Draws a slice of the majorant's cells over the pictures, or none.
+    ShowMajorants(Option<f32>),
+    /// Shows the slice in the middle, or hides it.
+    ToggleMajorants,
     /// Larger type, for projectors.
     ToggleLargeType,
     /// Takes the last edit back.

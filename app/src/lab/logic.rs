@@ -27,6 +27,11 @@ impl LabApp {
             self.stats = slot.stats.clone();
         }
         self.shown = self.wall.hung(Sight::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
+        self.latency.edited(self.state.generation);
+        self.latency.cancelled(self.state.generation, self.state.cancelled_seconds);
+        if let Some(shown) = &self.shown {
+            self.latency.shown(shown.generation);
+        }
         self.developer.order(self.wall.order());
         self.self_check.poll();
         while let Some(outcome) = self.tasks.take() {
@@ -157,6 +162,11 @@ impl LabApp {
                 self.wall.tool = if self.wall.tool == Tool::Region { Tool::Camera } else { Tool::Region };
             }
             Command::ToggleDock => self.settings.dock ^= true,
+            Command::ShowMajorants(slice) => self.settings.majorant_slice = slice,
+            Command::ToggleMajorants => {
+                let shown = self.settings.majorant_slice.is_some();
+                self.settings.majorant_slice = (!shown).then_some(0.5);
+            }
             Command::ShowTab(id) => (self.settings.tab, self.settings.dock) = (id.to_owned(), true),
             Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
             Command::ToggleLargeType => {

@@ -86,6 +86,15 @@ impl LabApp {
             }
         });
         ui.separator();
+        let mut cells = self.settings.majorant_slice.is_some();
+        if ui
+            .checkbox(&mut cells, "Majorant cells")
+            .on_hover_text("How tight the local majorants are  (M)")
+            .clicked()
+        {
+            commands.push(Command::ToggleMajorants);
+        }
+        ui.separator();
         let columns = [
             ("Scene column", self.settings.scene_column, Command::ToggleSceneColumn),
             ("Method column", self.settings.method_column, Command::ToggleMethodColumn),

@@ -16,6 +16,7 @@ mod dialogs;
 mod files;
 mod help;
 mod icon;
+pub mod latency;
 mod logic;
 mod menu;
 mod messages;
@@ -28,6 +29,7 @@ mod tasks;
 mod ui;
 
 pub use command::{Answer, Command, Purpose};
+pub use latency::Latency;
 pub use messages::{Message, Messages, Severity};
 pub use run::{LabError, LabOptions, run};
 pub use stats::Stats;
@@ -83,6 +85,8 @@ pub struct LabApp {
     quitting: bool,
     window_title: String,
     ui_seconds: f32,
+    latency: Latency,
+    logic_seconds: f64,
     /// Asks for a frame from other threads.
     repaint: egui::Context,
 }
@@ -146,6 +150,8 @@ impl LabApp {
             quitting: false,
             window_title: String::new(),
             ui_seconds: 0.0,
+            latency: Latency::default(),
+            logic_seconds: 0.0,
             repaint: ctx.clone(),
         };
         app.open_first(options.open.as_ref());
@@ -214,6 +220,12 @@ impl LabApp {
         self.shown.as_deref()
     }
 
+    /// How soon the window has answered lately.
+    #[must_use]
+    pub fn latency(&self) -> &Latency {
+        &self.latency
+    }
+
     /// Seconds that the last frame's `ui` and commands took, without rasterising.
     #[must_use]
     pub fn ui_seconds(&self) -> f32 {
@@ -223,10 +235,12 @@ impl LabApp {
 
 impl eframe::App for LabApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        let started = std::time::Instant::now();
         // On a software rasteriser a frame costs tens of milliseconds: leave most of the machine to rendering.
         let frame_seconds = frame.info().cpu_usage.unwrap_or(0.0);
         self.developer.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
         self.update(ctx);
+        self.logic_seconds = started.elapsed().as_secs_f64();
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
@@ -246,6 +260,7 @@ impl eframe::App for LabApp {
             ui.ctx().request_repaint();
         }
         self.ui_seconds = started.elapsed().as_secs_f32();
+        self.latency.frame(self.logic_seconds + f64::from(self.ui_seconds));
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

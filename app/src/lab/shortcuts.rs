@@ -76,6 +76,11 @@ pub const KEYS: &[Shortcut] = &[
         command: || Command::ToggleDock,
     },
     Shortcut {
+        keys: key(Modifiers::NONE, Key::M),
+        text: "Show or hide the majorant's cells",
+        command: || Command::ToggleMajorants,
+    },
+    Shortcut {
         keys: key(CTRL, Key::L),
         text: "Large type, for projectors",
         command: || Command::ToggleLargeType,

@@ -17,6 +17,8 @@ pub struct Settings {
     pub method_column: bool,
     /// Phase function lobes on a logarithmic radius.
     pub log_lobe: bool,
+    /// The slice of the majorant's cells that is drawn over the pictures, 0 nearest to 1 farthest; none if absent.
+    pub majorant_slice: Option<f32>,
     /// Whether numbers are shown below the pictures, once there are several.
     pub dock: bool,
     /// Which numbers.
@@ -33,6 +35,7 @@ impl Default for Settings {
             scene_column: true,
             method_column: true,
             log_lobe: false,
+            majorant_slice: None,
             dock: true,
             tab: "ranking".into(),
             large_type: false,

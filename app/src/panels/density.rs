@@ -4,6 +4,7 @@ use super::{Column, Cx, Panel, placement};
 use crate::lab::{Command, GridLists, Purpose};
 use crate::widgets::{Value, hint, path_field, row, segmented};
 use egui::{ComboBox, Ui};
+use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{DensityDoc, GridRef, MediumDoc};
 use std::path::Path;
 
@@ -45,19 +46,52 @@ impl Panel for Density {
             .tip("Multiplies the density: σt(x, λ) = scale · density(x) · extinction(λ), per scene unit")
             .show(ui);
         source_ui(ui, cx);
-        if let Some(info) = cx.state.scene.as_ref()
-            && let Some([x, y, z]) = info.grid_size
-        {
-            let megabytes = info.memory_bytes as f64 / 1e6;
-            hint(
-                ui,
-                &format!(
-                    "{x} × {y} × {z} voxels, {megabytes:.1} MB. Density up to {:.3}, mean {:.3}.",
-                    info.max_density, info.mean_density
-                ),
-            );
-        }
+        storage_ui(ui, cx);
         placement::placement_ui(ui, &mut cx.draft.medium.placement, &cx.opened.medium.placement);
+    }
+}
+
+/// How grids are kept and looked up, and what that costs.
+fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    if cx.draft.medium.density.grid().is_none() && cx.draft.medium.albedo_grid.is_none() {
+        return;
+    }
+    let medium = &mut cx.draft.medium;
+    row(ui, "Precision", "Bits of a value in memory", |ui, _| {
+        let options = [
+            (Precision::F32, "32", "As read"),
+            (Precision::F16, "16", "Half floats: relative error up to 1/2048"),
+            (Precision::U8, "8", "255 steps up to the largest value"),
+        ];
+        segmented(ui, "Precision", &mut medium.precision, &options);
+    });
+    row(ui, "Between", "How a value between samples is looked up", |ui, _| {
+        let options = [
+            (Interpolation::Trilinear, "Trilinear", "Eight samples, weighted"),
+            (
+                Interpolation::Stochastic,
+                "One sample",
+                "One of the eight at random: unbiased, cheaper, noisier",
+            ),
+        ];
+        segmented(ui, "Interpolation", &mut medium.interpolation, &options);
+    });
+    let Some(info) = cx.state.scene.as_ref() else { return };
+    if let Some([x, y, z]) = info.grid_size {
+        let megabytes = info.memory_bytes as f64 / 1e6;
+        let occupied = 100.0 * info.occupied_voxels as f64 / (x * y * z) as f64;
+        let error = match info.storage_error {
+            0.0 => String::new(),
+            error => format!(" Values are off by up to {error:.1e}."),
+        };
+        hint(
+            ui,
+            &format!(
+                "{x} × {y} × {z} voxels, {occupied:.0} % of them not empty, in {megabytes:.1} MB. Density up to {:.3}, \
+                 mean {:.3}.{error}",
+                info.max_density, info.mean_density
+            ),
+        );
     }
 }
 

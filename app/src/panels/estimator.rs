@@ -5,7 +5,9 @@ use crate::theme::Palette;
 use crate::widgets::{callout, hint, optional, row, segmented};
 use egui::{Color32, CornerRadius, Frame, Label, Margin, RichText, Role, Sense, Stroke, Ui, WidgetInfo};
 use majorant_core::estimator::{self, Entry, REGISTRY};
-use majorant_core::scene::{Absorption, EstimatorDoc, Mode};
+use majorant_core::math::SamplerKind;
+use majorant_core::scene::{Absorption, DirectionSampling, EstimatorDoc, Mode};
+use majorant_core::spectrum::WavelengthSampling;
 
 /// See the [module](self).
 pub struct Estimator;
@@ -54,6 +56,28 @@ impl Panel for Estimator {
             ];
             segmented(ui, "Components", &mut doc.mode, &options);
         });
+        if doc.mode == Mode::Spectral {
+            row(
+                ui,
+                "Wavelengths",
+                "How the hero's wavelength is drawn; the others are rotations of it",
+                |ui, _| {
+                    let options = [
+                        (
+                            WavelengthSampling::Sensor,
+                            "By sensor",
+                            "Often where the sensor responds: less colour noise",
+                        ),
+                        (
+                            WavelengthSampling::Uniform,
+                            "Uniform",
+                            "Evenly from 360 to 830 nm, as in the report",
+                        ),
+                    ];
+                    segmented(ui, "Wavelengths", &mut doc.wavelengths, &options);
+                },
+            );
+        }
         row(ui, "Absorption", "What happens at a collision that may absorb", |ui, _| {
             let options = [
                 (Absorption::Weighted, "Weighted", "Never drawn; scattering carries the albedo as a weight"),
@@ -70,7 +94,33 @@ impl Panel for Estimator {
                 Absorption::Analogue => "A path ends with P(absorb) = σa / μ and otherwise keeps its weight.",
             },
         );
+        sampling_ui(ui, doc);
         path_length_ui(ui, doc, &cx.opened.estimator);
+    }
+}
+
+/// How random decisions are spread, and where directions come from: the same mean, another variance.
+fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Samples", "How the samples of a pixel relate to each other", |ui, _| {
+        let options = [
+            (SamplerKind::Independent, "Independent", "Not at all: error bars are exact"),
+            (SamplerKind::Lattice, "Lattice", "Spread evenly over the first decisions of a path: less noise"),
+        ];
+        segmented(ui, "Samples", &mut doc.sampler, &options);
+    });
+    row(ui, "Directions", "What directions in the medium are drawn from", |ui, _| {
+        let options = [
+            (DirectionSampling::Phase, "Phase", "The phase function, as in the papers"),
+            (
+                DirectionSampling::TowardsLights,
+                "Guided",
+                "Also from broad lobes towards the lights: wins for light from the side through forward scattering",
+            ),
+        ];
+        segmented(ui, "Directions", &mut doc.directions, &options);
+    });
+    if doc.sampler == SamplerKind::Lattice {
+        hint(ui, "Error bars overstate the error: samples of a lattice hang together.");
     }
 }
 

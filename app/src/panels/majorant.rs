@@ -1,9 +1,11 @@
 //! The majorant: what free flights are sampled from. It costs or saves time, not truth — unless clamped.
 
 use super::{Column, Cx, Panel};
+use crate::lab::Command;
 use crate::theme::Palette;
-use crate::widgets::{Value, badge, callout, format_number, hint, row, segmented, switch};
-use egui::{Color32, Sense, Ui, vec2};
+use crate::widgets::{Value, badge, callout, format_number, hint, optional, row, segmented, switch};
+use egui::{Color32, Sense, Slider, Ui, vec2};
+use majorant_core::medium::MAX_MAJORANT_CELLS;
 use majorant_core::scene::{MajorantDoc, WhenExceeded};
 
 /// See the [module](self).
@@ -25,7 +27,10 @@ impl Panel for Majorant {
     fn summary(&self, cx: &Cx<'_>) -> String {
         let majorant = &cx.draft.medium.majorant;
         let shared = if majorant.shared { ", shared" } else { "" };
-        format!("{} × max σt{shared}", format_number(f64::from(majorant.factor)))
+        let cells =
+            majorant.resolution.or(cx.state.scene.as_ref().and_then(|i| i.majorant_cells).map(|n| n as u32));
+        let cells = cells.map_or_else(String::new, |n| format!(", {n}³"));
+        format!("{} × max σt{cells}{shared}", format_number(f64::from(majorant.factor)))
     }
     fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
         verdict(&cx.draft.medium.majorant, palette).map(|(colour, _, _)| colour)
@@ -39,12 +44,28 @@ impl Panel for Majorant {
             .range(0.1..=16.0)
             .logarithmic()
             .named("Majorant factor")
-            .tip("μ(λ) = factor · max over x of σt(x, λ). 1 is tight; above it null collisions are added")
+            .tip("μ(x, λ) = factor · the largest σt(λ) in the cell around x. 1 is tight; above it null collisions are added")
             .show(ui);
+        let cells = cx.state.scene.as_ref().and_then(|info| info.majorant_cells);
+        let automatic = cells.map_or_else(|| "automatic".into(), |n| format!("automatic: {n}³"));
+        let tip = "Cells per axis of the grid of local majorants, 1 to 128. 1 is one majorant for the whole box; \
+                   finer ones are tighter and cost more steps. Automatic: the cheapest to fly through";
+        let (resolution, opened) = (&mut majorant.resolution, cx.opened.medium.majorant.resolution);
+        let initial = cells.unwrap_or(16) as u32;
+        optional(ui, "Resolution", (resolution, opened), initial, &automatic, tip, |v| {
+            v.range(1.0..=f64::from(MAX_MAJORANT_CELLS)).logarithmic()
+        });
         if let Some(info) = cx.state.scene.as_ref() {
             tightness_ui(ui, info.tightness);
         }
-        let shared = "Every wavelength gets the largest one's majorant: μ = factor · max over x and λ of σt";
+        if let Some(lookups) = cx.stats.lookups_per_path {
+            row(ui, "Look-ups", "Look-ups of the medium per path: what tighter majorants save", |ui, _| {
+                ui.monospace(format!("{lookups:.2} per path"));
+            });
+        }
+        slice_ui(ui, cx.settings.majorant_slice, cells.is_some(), cx.commands);
+        let majorant = &mut cx.draft.medium.majorant;
+        let shared = "Every wavelength gets the largest one's majorant";
         switch(ui, "Shared", "Shared majorant", &mut majorant.shared, "by all wavelengths", shared);
         row(ui, "Where exceeded", "What happens where σt is larger than μ", |ui, _| {
             let options = [
@@ -69,6 +90,27 @@ impl Panel for Majorant {
     }
 }
 
+/// The slice of cells that is drawn over the pictures.
+fn slice_ui(ui: &mut Ui, slice: Option<f32>, there: bool, commands: &mut Vec<Command>) {
+    let tip = "Draws a slice of the cells over the picture, coloured by tightness  (M)";
+    row(ui, "Cells", tip, |ui, _| {
+        let mut shown = slice.is_some();
+        let text = if there { "show" } else { "show: a grid has some" };
+        if ui.checkbox(&mut shown, text).accessible_name("Show majorant cells").on_hover_text(tip).clicked() {
+            commands.push(Command::ToggleMajorants);
+        }
+        if let Some(depth) = slice {
+            let mut moved = depth;
+            ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(40.0);
+            let slider = Slider::new(&mut moved, 0.0..=1.0).show_value(false);
+            ui.add(slider).on_hover_text("Which slice: near to far");
+            if moved != depth {
+                commands.push(Command::ShowMajorants(Some(moved)));
+            }
+        }
+    });
+}
+
 /// What is to be said about a majorant that does not bound the extinction.
 fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'static str, &'static str)> {
     if majorant.factor >= 1.0 {
@@ -90,7 +132,7 @@ fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'stat
 
 /// Share of collisions in the box that are real, as a bar.
 fn tightness_ui(ui: &mut Ui, tightness: f32) {
-    let tip = "mean σt / μ over the box: the share of tentative collisions that are real. The rest is null";
+    let tip = "mean σt / mean μ over the box: the share of collisions along a straight line that are real. The rest is null";
     row(ui, "Tightness", tip, |ui, _| {
         let palette = Palette::get(ui);
         let width = ui.available_width() - 70.0;

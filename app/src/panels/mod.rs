@@ -18,7 +18,7 @@ mod placement;
 mod render;
 mod scene;
 
-use crate::lab::{Command, GridLists, Stats};
+use crate::lab::{Command, GridLists, Latency, Stats};
 use crate::model::Settings;
 use crate::theme::Palette;
 use egui::{Color32, Ui};
@@ -35,6 +35,8 @@ pub struct Cx<'a> {
     pub state: &'a ViewState,
     /// Rates and estimates derived from it.
     pub stats: &'a Stats,
+    /// How soon the window has answered lately.
+    pub latency: &'a Latency,
     /// Preferences.
     pub settings: &'a Settings,
     /// Names of the grids in files, as far as they were listed.

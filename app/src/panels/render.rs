@@ -1,10 +1,10 @@
 //! Progress, cost and limits of the render.
 
 use super::{Column, Cx, Panel};
-use crate::lab::Command;
 use crate::lab::stats::{count, duration};
+use crate::lab::{Command, Latency};
 use crate::theme::Palette;
-use crate::widgets::{Value, badge, callout, hint, optional};
+use crate::widgets::{Value, badge, callout, hint, optional, row};
 use egui::{Align2, Button, Color32, RichText, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 use majorant_core::session::Status;
 
@@ -37,6 +37,7 @@ impl Panel for Render {
         progress_ui(ui, cx);
         figures_ui(ui, cx);
         trouble_ui(ui, cx);
+        latency_ui(ui, cx.latency);
         limits_ui(ui, cx);
     }
 }
@@ -144,6 +145,42 @@ fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
     }
 }
 
+/// How soon the window answers.
+fn latency_ui(ui: &mut Ui, latency: &Latency) {
+    let title = RichText::new("Latency").small();
+    egui::CollapsingHeader::new(title).id_salt("latency").show_unindented(ui, |ui| {
+        let rows = [
+            (
+                "First picture",
+                latency.first_picture(),
+                "From an edit to the first frame that shows it, over the last 32 edits",
+            ),
+            (
+                "Cancelled",
+                latency.cancellation(),
+                "From an edit to the moment when no worker traces the old scene any more",
+            ),
+            (
+                "Window",
+                latency.frames(),
+                "The window's own part of a frame, without the rasteriser, over the last 120 frames",
+            ),
+        ];
+        for (name, recent, tip) in rows {
+            let text = recent.map_or_else(
+                || "–".into(),
+                |r| {
+                    let ms = |seconds: f64| 1e3 * seconds;
+                    format!("{:.1} ms, worst {:.1} ms", ms(r.median), ms(r.worst))
+                },
+            );
+            row(ui, name, tip, |ui, _| {
+                ui.monospace(text).on_hover_text(format!("Median and worst. {tip}"));
+            });
+        }
+    });
+}
+
 fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let title = RichText::new("Limits, threads, seed").small();
     egui::CollapsingHeader::new(title).id_salt("limits").show_unindented(ui, |ui| {
@@ -165,9 +202,6 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         if let Some(snapshot) = cx.state.snapshot.as_ref() {
             let cpu = duration(snapshot.cpu_seconds);
             hint(ui, &format!("{} threads, {cpu} of CPU time.", snapshot.threads));
-        }
-        if let Some(seconds) = cx.state.first_picture_seconds {
-            hint(ui, &format!("First picture {:.0} ms after the last edit.", 1e3 * seconds));
         }
     });
 }

@@ -2,6 +2,7 @@
 
 pub mod camera_control;
 pub mod canvas;
+pub mod cells_overlay;
 pub mod developer;
 pub mod image_view;
 pub mod readout;

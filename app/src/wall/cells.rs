@@ -7,6 +7,7 @@ use super::state::{Tool, Wall};
 use crate::lab::Command;
 use crate::theme::Palette;
 use crate::view::canvas::{Outcome, Shown, canvas_ui};
+use crate::view::cells_overlay;
 use crate::view::developer::Sight;
 use crate::widgets::badge;
 use egui::{
@@ -14,7 +15,7 @@ use egui::{
 };
 use majorant_core::compare::label;
 use majorant_core::estimator;
-use majorant_core::scene::{Arrangement, CameraDoc, Pair, SceneDoc};
+use majorant_core::scene::{Arrangement, Camera, CameraDoc, Pair, SceneDoc};
 use majorant_core::session::Status;
 
 /// Gap between pictures.
@@ -160,7 +161,14 @@ impl Wall {
         let film = vec2(doc.film.width as f32, doc.film.height as f32);
         let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("cell", sight)));
         child.set_clip_rect(rect.intersect(ui.clip_rect()));
-        canvas_ui(&mut child, &shown, self.zoom_of(sight), &camera, film)
+        let outcome = canvas_ui(&mut child, &shown, self.zoom_of(sight), &camera, film);
+        if let (Some(depth), Some(probe), Sight::View(_)) =
+            (self.majorant_slice, self.slots().get(view).and_then(|s| s.state.probe.as_ref()), sight)
+        {
+            let eye = Camera::new(&camera, doc.film.width, doc.film.height);
+            cells_overlay::paint(&child, rect, outcome.view, film, probe.scene(), &eye, depth);
+        }
+        outcome
     }
 
     fn take(&mut self, outcome: Outcome, sight: Sight, seen: &mut Seen, commands: &mut Vec<Command>) {

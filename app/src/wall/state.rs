@@ -67,6 +67,8 @@ pub struct Wall {
     pub tool: Tool,
     /// The pixel whose samples are shown.
     pub picked: Option<[usize; 2]>,
+    /// The slice of majorants that is drawn over views, if any.
+    pub majorant_slice: Option<f32>,
 }
 
 /// What numbers depend on.
@@ -110,6 +112,7 @@ impl Wall {
             flipped: 0,
             tool: Tool::Camera,
             picked: None,
+            majorant_slice: None,
         })
     }
 

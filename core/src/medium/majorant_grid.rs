@@ -173,7 +173,8 @@ fn summary<const C: usize>(grid: &Grid<C>, [x, y, z]: [&Span; 3]) -> ([f32; C], 
     }
     let mut bound = [0.0f32; C];
     let mut mean = 0.0f32;
-    for c in 0..C {
+    let samples = (x.last - x.first + 1) * (y.last - y.first + 1) * (z.last - z.first + 1);
+    for (c, bound) in bound.iter_mut().enumerate() {
         let mut sum = 0.0f32;
         let mut planes = Vec::with_capacity(z.last - z.first + 1);
         for k in z.first..=z.last {
@@ -185,8 +186,7 @@ fn summary<const C: usize>(grid: &Grid<C>, [x, y, z]: [&Span; 3]) -> ([f32; C], 
             }
             planes.push(y.largest(|j| rows[j - y.first]));
         }
-        bound[c] = z.largest(|k| planes[k - z.first]);
-        let samples = (x.last - x.first + 1) * (y.last - y.first + 1) * (z.last - z.first + 1);
+        *bound = z.largest(|k| planes[k - z.first]);
         mean = mean.max(sum / samples as f32);
     }
     // Rounding in the interpolation itself is relative to the values.

@@ -68,7 +68,48 @@ pub enum AnyMedium {
     RgbGrids(RgbGrids),
 }
 
+/// The local bounds of any medium that has some.
+#[derive(Clone, Copy, Debug)]
+pub enum MajorantCells<'a> {
+    /// Of a density.
+    Density(&'a MajorantGrid<1>),
+    /// Of an RGB grid.
+    Rgb(&'a MajorantGrid<3>),
+}
+
+impl MajorantCells<'_> {
+    /// Cells per axis.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        match self {
+            Self::Density(grid) => grid.cells(),
+            Self::Rgb(grid) => grid.cells(),
+        }
+    }
+
+    /// Mean of the field in a cell over its bound: the share of collisions there that are real, at factor 1;
+    /// `None` in an empty cell.
+    #[must_use]
+    pub fn tightness(&self, cell: [usize; 3]) -> Option<f32> {
+        let (mean, bound) = match self {
+            Self::Density(grid) => (grid.mean(cell), grid.bound(cell)[0]),
+            Self::Rgb(grid) => (grid.mean(cell), grid.bound(cell).into_iter().fold(0.0, f32::max)),
+        };
+        (bound > 0.0).then(|| (mean / bound).min(1.0))
+    }
+}
+
 impl AnyMedium {
+    /// The cells of its local majorants; none in a homogeneous medium, whose majorant is its extinction.
+    #[must_use]
+    pub fn majorant_cells(&self) -> Option<MajorantCells<'_>> {
+        match self {
+            Self::Homogeneous(_) => None,
+            Self::DensityGrid(m) => Some(MajorantCells::Density(&m.bounds)),
+            Self::RgbGrids(m) => m.majorant_cells(),
+        }
+    }
+
     /// Whether extinction and albedo are the same at every wavelength, everywhere.
     #[must_use]
     pub fn is_achromatic(&self) -> bool {

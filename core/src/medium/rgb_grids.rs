@@ -6,8 +6,8 @@
 
 use super::density_grid::DensitySegments;
 use super::{
-    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment,
-    Medium,
+    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantCells, MajorantGrid, MajorantPolicy,
+    MajorantSegment, Medium,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -53,6 +53,18 @@ impl RgbGrids {
         majorant: MajorantPolicy,
     ) -> Self {
         Self { extinction, albedo, interpolation, majorant }
+    }
+}
+
+impl RgbGrids {
+    /// The cells of its local majorants, if extinction comes from a grid.
+    #[must_use]
+    pub fn majorant_cells(&self) -> Option<MajorantCells<'_>> {
+        match &self.extinction {
+            ExtinctionField::Uniform(_) => None,
+            ExtinctionField::Density(_, bounds, _) => Some(MajorantCells::Density(bounds)),
+            ExtinctionField::Rgb(_, bounds, _) => Some(MajorantCells::Rgb(bounds)),
+        }
     }
 }
 

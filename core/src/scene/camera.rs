@@ -41,6 +41,25 @@ impl Camera {
         }
     }
 
+    /// Where it stands.
+    #[must_use]
+    pub fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// Where on the film a point of the world is seen, in pixels; `None` behind the camera.
+    #[must_use]
+    pub fn pixel_of(&self, point: Vec3) -> Option<Vec2> {
+        let to_point = point - self.origin;
+        let depth = to_point.dot(self.forward);
+        if depth <= 1e-6 * to_point.length() {
+            return None;
+        }
+        let x = to_point.dot(self.right) / (depth * self.right.length_squared());
+        let y = -to_point.dot(self.up) / (depth * self.up.length_squared());
+        Some((Vec2::new(x, y) + Vec2::ONE) / self.pixels_to_film)
+    }
+
     /// The ray through a point of the film, in pixels.
     #[must_use]
     pub fn ray(&self, pixel: Vec2) -> Ray {
@@ -67,6 +86,9 @@ mod tests {
         ] {
             let ray = camera.ray(Vec2::from(pixel));
             assert!((ray.direction - Vec3::from(direction)).length() < 1e-6, "{}", ray.direction);
+            let seen = camera.pixel_of(ray.at(3.7)).expect("it lies in front");
+            assert!((seen - Vec2::from(pixel)).length() < 1e-2, "{seen}");
+            assert!(camera.pixel_of(ray.at(-3.7)).is_none());
         }
     }
 }

@@ -30,6 +30,7 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
         views: BTreeMap::new(),
         paused: BTreeSet::new(),
         turns: Turns::default(),
+        cancelled: BTreeSet::new(),
     };
     loop {
         let idle = !coordinator.views.values().any(Active::runnable);
@@ -48,6 +49,8 @@ struct Coordinator<'a> {
     /// Views that the user has paused; they stay so through edits and failures.
     paused: BTreeSet<ViewId>,
     turns: Turns,
+    /// Views whose pass was broken off for what comes next.
+    cancelled: BTreeSet<ViewId>,
 }
 
 impl Coordinator<'_> {
@@ -57,6 +60,7 @@ impl Coordinator<'_> {
             Command::Remove { view } => {
                 self.views.remove(&view);
                 self.paused.remove(&view);
+                self.cancelled.remove(&view);
             }
             Command::Limits { view, limits } => self.change(view, |v| v.limits = limits),
             Command::Fairness(fairness) => self.turns.fairness = fairness,
@@ -96,6 +100,7 @@ impl Coordinator<'_> {
             Ok(Some(snapshot)) => self.mailbox.publish_snapshot(id, snapshot, view.status()),
             Ok(None) => {
                 self.views.remove(&id);
+                self.cancelled.insert(id);
             }
             Err(panic) => {
                 let generation = view.generation;
@@ -110,7 +115,9 @@ impl Coordinator<'_> {
     }
 
     fn start(&mut self, id: ViewId, generation: u64, job: &Job) {
-        self.views.remove(&id);
+        if self.cancelled.remove(&id) | self.views.remove(&id).is_some_and(|view| view.runnable()) {
+            self.mailbox.note_cancelled(id, generation);
+        }
         // Nobody waits for it any more: a closing session must not build all that was asked of it.
         if !Wanted::new(&self.mailbox.current(id), generation).yes() {
             return;
@@ -208,7 +215,8 @@ mod tests {
         let view = Active::new((generation, current), probe, pool, doc.render.limits());
         let views = BTreeMap::from([(id, view)]);
         let turns = Turns::default();
-        (Coordinator { mailbox, keeper, views, paused: BTreeSet::new(), turns }, id)
+        let (paused, cancelled) = (BTreeSet::new(), BTreeSet::new());
+        (Coordinator { mailbox, keeper, views, paused, turns, cancelled }, id)
     }
 
     #[test]
@@ -253,6 +261,7 @@ mod tests {
             views: BTreeMap::new(),
             paused: BTreeSet::new(),
             turns: Turns::default(),
+            cancelled: BTreeSet::new(),
         };
         let superseded = mailbox.submit(id, job.clone());
         let removed = mailbox.submit(id, job.clone());

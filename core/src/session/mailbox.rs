@@ -39,6 +39,7 @@ impl Public {
                 notices: Vec::new(),
                 scene: None,
                 first_picture_seconds: None,
+                cancelled_seconds: None,
                 probe: None,
             },
             job: None,
@@ -83,6 +84,7 @@ impl Mailbox {
         public.state.generation = generation;
         public.state.status = Status::Building;
         public.state.first_picture_seconds = None;
+        public.state.cancelled_seconds = None;
         public.submitted = Instant::now();
         public.job = Some(job.clone());
         public.current.store(generation, Ordering::Release);
@@ -166,6 +168,15 @@ impl Mailbox {
 
     pub fn publish_status(&self, view: ViewId, generation: u64, status: Status) {
         self.publish(view, generation, |p| p.state.status = status);
+    }
+
+    /// Takes note that nothing older than `generation` is being traced any more.
+    pub fn note_cancelled(&self, view: ViewId, generation: u64) {
+        if let Some(public) = self.lock().views.get_mut(&view)
+            && public.state.generation == generation
+        {
+            public.state.cancelled_seconds = Some(public.submitted.elapsed().as_secs_f64());
+        }
     }
 
     /// Publishes what freezing the scene has found.

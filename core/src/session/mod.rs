@@ -86,6 +86,8 @@ pub struct ViewState {
     pub scene: Option<SceneInfo>,
     /// Seconds from the newest submission to its first picture.
     pub first_picture_seconds: Option<f64>,
+    /// Seconds from the newest submission until no worker traced the one before; none if nothing was rendering.
+    pub cancelled_seconds: Option<f64>,
     /// Traces any of its paths again.
     pub probe: Option<Probe>,
 }

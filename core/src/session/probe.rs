@@ -37,6 +37,12 @@ impl Probe {
         Self { scene, kernel, settings }
     }
 
+    /// The scene that paths are traced in.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// The path of sample number `sample` of a pixel, exactly as the film has received it.
     pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
         (self.kernel)(&self.scene, &self.settings, PathIndex { x, y, sample }, wanted)

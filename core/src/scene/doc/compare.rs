@@ -2,6 +2,7 @@
 //! against, and what of them is shown.
 
 use super::{CameraDoc, EstimatorDoc, MajorantDoc, SceneDoc, ViewDoc};
+use crate::medium::Interpolation;
 use serde::{Deserialize, Serialize};
 
 /// The most views of a scene.

@@ -1,0 +1,99 @@
+//! One path of every estimator on four scenes, the mean over many pixels; then what modes, samplers and grid sizes
+//! cost.
+#![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
+
+mod common;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use glam::Vec3;
+use majorant_core::estimator::{Entry, PathIndex, REGISTRY, Settings, find};
+use majorant_core::io::Library;
+use majorant_core::math::SamplerKind;
+use majorant_core::scene::{DensityDoc, DirectionSampling, GridRef, Mode, Scene, SceneDoc, build};
+use majorant_core::transport::Wanted;
+
+/// Paths of one measurement, spread over the picture.
+const PATHS: u32 = 1024;
+
+fn trace(scene: &Scene, doc: &SceneDoc, entry: &Entry) -> Vec3 {
+    let settings = Settings::new(&doc.estimator, 1);
+    let mut sum = Vec3::ZERO;
+    for i in 0..PATHS {
+        // Steps that share no factor with the picture's sides visit it evenly.
+        let at = PathIndex {
+            x: (i * 37) % scene.width,
+            y: (i * 101 / 7) % scene.height,
+            sample: u64::from(i / 256),
+        };
+        sum += (entry.kernel)(scene, &settings, at, Wanted::ALWAYS).rgb;
+    }
+    sum
+}
+
+fn estimators(c: &mut Criterion) {
+    for name in common::SCENES {
+        let doc = common::doc(name);
+        let scene = common::frozen(&doc);
+        let mut group = c.benchmark_group(format!("paths/{name}"));
+        group.throughput(Throughput::Elements(u64::from(PATHS)));
+        for entry in REGISTRY {
+            group.bench_function(entry.id, |b| b.iter(|| trace(&scene, &doc, entry)));
+        }
+        group.finish();
+    }
+}
+
+type Edit = fn(&mut SceneDoc);
+
+fn options(c: &mut Criterion) {
+    let Some(entry) = find("uni-nee-mis") else { return };
+    let mut group = c.benchmark_group("options/plume-spectral");
+    group.throughput(Throughput::Elements(u64::from(PATHS)));
+    let edits: [(&str, Edit); 5] = [
+        ("spectral", |_| {}),
+        ("rgb", |d| d.estimator.mode = Mode::Rgb),
+        ("lattice", |d| d.estimator.sampler = SamplerKind::Lattice),
+        ("guided", |d| d.estimator.directions = DirectionSampling::TowardsLights),
+        ("global majorant", |d| d.medium.majorant.resolution = Some(1)),
+    ];
+    for (name, edit) in edits {
+        let mut doc = common::doc("plume-spectral");
+        edit(&mut doc);
+        let scene = common::frozen(&doc);
+        group.bench_function(name, |b| b.iter(|| trace(&scene, &doc, entry)));
+    }
+    group.finish();
+}
+
+/// The same cloud sampled ever more finely: a path should hardly notice.
+fn sizes(c: &mut Criterion) {
+    let Some(entry) = find("uni-nee-mis") else { return };
+    let mut group = c.benchmark_group("grid size");
+    group.throughput(Throughput::Elements(u64::from(PATHS)));
+    for n in [64usize, 128, 256, 512] {
+        let mut doc = common::doc("cloud-sidelit");
+        let name = format!("cloud_{n}x{n}x{n}.raw");
+        doc.medium.density = DensityDoc::Grid(GridRef { file: name.clone(), grid: None });
+        doc.medium.placement.fit = Some(1.0);
+        let library = Library::default().with_volume(&name, cloud(n));
+        let Ok(scene) = build(&doc, &mut library.clone()) else { continue };
+        group.bench_function(BenchmarkId::from_parameter(format!("{n}³")), |b| {
+            b.iter(|| trace(&scene, &doc, entry));
+        });
+    }
+    group.finish();
+}
+
+/// Raw voxels of a lumpy ball, the same shape at every size.
+fn cloud(n: usize) -> Vec<u8> {
+    let value = |i: usize| {
+        let p =
+            Vec3::new((i % n) as f32 + 0.5, (i / n % n) as f32 + 0.5, (i / n / n) as f32 + 0.5) / n as f32;
+        let lumps = (p.x * 19.0).sin() * (p.y * 23.0).sin() * (p.z * 17.0).sin();
+        (0.35 + 0.1 * lumps - (p - 0.5).length()).clamp(0.0, 0.1) * 10.0
+    };
+    (0..n * n * n).flat_map(|i| value(i).to_le_bytes()).collect()
+}
+
+criterion_group! { name = benches; config = common::config(); targets = estimators, options, sizes }
+criterion_main!(benches);
