@@ -119,6 +119,7 @@ mod tests {
             snapshot: Some(Arc::new(snapshot)),
             notices: Vec::new(),
             first_picture_seconds: None,
+            cancelled_seconds: None,
             scene: None,
             probe: None,
         }

@@ -98,7 +98,8 @@ mod tests {
         let mut random = Sampler::new(3, 1, 4);
         let count = size.iter().product();
         // A third of it empty, in runs.
-        let values = (0..count).map(|i: usize| [if i / 7 % 3 == 0 { 0.0 } else { random.next_1d() }]);
+        let values =
+            (0..count).map(|i: usize| [if (i / 7).is_multiple_of(3) { 0.0 } else { random.next_1d() }]);
         Grid::new(size, values.collect(), lattice).expect("the sizes agree")
     }
 

@@ -1,7 +1,7 @@
 //! The sensor: the CIE 1931 2° observer, and linear sRGB (IEC 61966-2-1) from it.
 //!
 //! Normalised so that constant radiance 1 gives X = Y = Z = 1, as illuminant E does by definition (the
-//! tabulated curves' own integrals differ by 0.03 %); it shows as linear sRGB (1.2048, 0.9483, 0.9089). Tables are sampled every 5 nm and linear
+//! tabulated curves' own integrals differ by 0.03 %); it shows as linear sRGB (1.2050, 0.9483, 0.9086). Tables are sampled every 5 nm and linear
 //! between; their sources stand in `assets/spectra/README.md`.
 
 use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
@@ -68,11 +68,12 @@ static ILLUMINANT: LazyLock<Table> = LazyLock::new(|| {
     table.map(|power| power / y)
 });
 
-/// Linear sRGB from XYZ (IEC 61966-2-1, D65), by columns.
+/// Linear sRGB from XYZ, by columns: from the chromaticities of IEC 61966-2-1 with the white point D65. Published
+/// matrices round the white point, by up to 3·10⁻⁴ in blue.
 const SRGB_FROM_XYZ: Mat3 = Mat3::from_cols(
-    Vec3::new(3.240_479, -0.969_256, 0.055_648),
-    Vec3::new(-1.537_15, 1.875_991, -0.204_043),
-    Vec3::new(-0.498_535, 0.041_556, 1.057_311),
+    Vec3::new(3.240_97, -0.969_243_6, 0.055_630_08),
+    Vec3::new(-1.537_383_2, 1.875_967_5, -0.203_976_96),
+    Vec3::new(-0.498_610_76, 0.041_555_06, 1.056_971_5),
 );
 
 /// What radiance 1 per nanometre at one wavelength adds to the film, in linear sRGB per nm.

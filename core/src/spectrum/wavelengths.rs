@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_film_is_unbiased_over_the_hero_however_it_is_drawn() {
-        let expected = Vec3::new(1.2048, 0.9483, 0.9089);
+        let expected = Vec3::new(1.204_98, 0.948_28, 0.908_62);
         for by in [WavelengthSampling::Uniform, WavelengthSampling::Sensor] {
             let n = 9400u16;
             let hero = |i: u16| (f32::from(i) + 0.5) / f32::from(n);
@@ -138,7 +138,7 @@ mod tests {
             let squares: f32 = (0..n)
                 .map(|i| Wavelengths::<1>::sample(hero(i), by).to_film(Sampled::ONE).length_squared())
                 .sum();
-            squares / f32::from(n) - Vec3::new(1.2048, 0.9483, 0.9089).length_squared()
+            squares / f32::from(n) - Vec3::new(1.204_98, 0.948_28, 0.908_62).length_squared()
         };
         let (sensor, uniform) = (variance(WavelengthSampling::Sensor), variance(WavelengthSampling::Uniform));
         assert!(sensor < 0.5 * uniform, "{sensor} {uniform}");

@@ -37,7 +37,11 @@ fn interval(i: &Interval) -> String {
 
 fn padded(cells: [String; 9]) -> String {
     let cell = |(i, text): (usize, &String)| {
-        if !(2..=6).contains(&i) { format!("{text:<0$}", WIDTHS[i]) } else { format!("{text:>0$}", WIDTHS[i]) }
+        if !(2..=6).contains(&i) {
+            format!("{text:<0$}", WIDTHS[i])
+        } else {
+            format!("{text:>0$}", WIDTHS[i])
+        }
     };
     cells.iter().enumerate().map(cell).collect::<Vec<_>>().join("  ").trim_end().to_owned()
 }
