@@ -7,6 +7,8 @@ mod files;
 mod harness;
 #[path = "gui/self_check.rs"]
 mod self_check;
+#[path = "gui/speed.rs"]
+mod speed;
 #[path = "gui/wall.rs"]
 mod wall;
 

@@ -82,7 +82,11 @@ fn everything() -> SceneDoc {
         view: ViewDoc { exposure_ev: -1.5, tone: ToneCurve::Reinhard, gamma: Some(2.2) },
         compare: CompareDoc {
             views: vec![ContenderDoc {
-                estimator: EstimatorDoc { max_depth: Some(2), ..EstimatorDoc::default() },
+                estimator: EstimatorDoc {
+                    max_depth: Some(2),
+                    roulette_depth: None,
+                    ..EstimatorDoc::default()
+                },
                 majorant: MajorantDoc { factor: 2.0, ..MajorantDoc::default() },
                 seed: 7,
                 camera: Some(CameraDoc { fov_deg: 12.0, ..CameraDoc::default() }),

@@ -220,6 +220,12 @@ impl LabApp {
         self.shown.as_deref()
     }
 
+    /// How the window is set up.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
     /// How soon the window has answered lately.
     #[must_use]
     pub fn latency(&self) -> &Latency {

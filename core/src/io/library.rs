@@ -250,3 +250,51 @@ impl Resources for Library {
         Ok(read)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::scene_file;
+    use crate::medium::AnyMedium;
+    use crate::scene::build;
+    use crate::spectrum::SpectrumDoc;
+
+    fn field(doc: &SceneDoc, library: &mut Library) -> (usize, usize) {
+        match build(doc, library).expect("a good scene").medium {
+            AnyMedium::DensityGrid(medium) => {
+                (Arc::as_ptr(&medium.density).addr(), Arc::as_ptr(&medium.bounds).addr())
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn edits_of_anything_but_the_field_touch_no_voxel() {
+        let toml = embedded::find("first-light").expect("the first scene").toml;
+        let mut doc = scene_file::parse(toml, "first-light").expect("a good scene");
+        doc.medium.majorant.resolution = Some(12);
+        let mut library = Library::default();
+        let (density, bounds) = field(&doc, &mut library);
+        let edits: [fn(&mut SceneDoc); 7] = [
+            |d| d.medium.scale = 3.0,
+            |d| d.medium.albedo = SpectrumDoc::Constant(0.5),
+            |d| d.medium.extinction = SpectrumDoc::Constant(7.0),
+            |d| d.medium.majorant.factor = 2.0,
+            |d| d.medium.majorant.shared = false,
+            |d| d.camera.fov_deg = 20.0,
+            |d| d.lights.truncate(1),
+        ];
+        for (i, edit) in edits.into_iter().enumerate() {
+            edit(&mut doc);
+            assert_eq!(field(&doc, &mut library), (density, bounds), "edit {i}");
+        }
+        // Another resolution bounds the same voxels anew; both are kept.
+        doc.medium.majorant.resolution = Some(13);
+        let other = field(&doc, &mut library);
+        assert!(other.0 == density && other.1 != bounds);
+        doc.medium.majorant.resolution = Some(12);
+        assert_eq!(field(&doc, &mut library), (density, bounds));
+        doc.medium.precision = Precision::F16;
+        assert_ne!(field(&doc, &mut library).0, density);
+    }
+}

@@ -32,13 +32,28 @@ impl<const C: usize> MajorantGrid<C> {
         let spans: [Vec<Span>; 3] = std::array::from_fn(|axis| {
             (0..cells).map(|i| Span::of_cell(grid, (axis, i, cells), interpolation)).collect()
         });
-        let (bound, mean): (Vec<_>, Vec<_>) = (0..cells * cells)
+        let size = grid.size();
+        // One axis after the other, so that every sample is read once.
+        let planes: Vec<_> = (0..size[2])
             .into_par_iter()
-            .flat_map_iter(|yz| {
-                let (y, z) = (&spans[1][yz % cells], &spans[2][yz / cells]);
-                spans[0].iter().map(move |x| summary(grid, [x, y, z]))
+            .map_init(Vec::new, |row, z| {
+                let rows: Vec<_> = (0..size[1])
+                    .map(|y| grid.row([y, z], row).then(|| Summary::of_row(row, &spans[0])))
+                    .collect();
+                let cells: Vec<_> = spans[1].iter().map(|span| span.summary(&rows, cells)).collect();
+                cells.iter().any(Option::is_some).then(|| Summary::joined(&cells, spans[0].len()))
             })
-            .unzip();
+            .collect();
+        let layers: Vec<_> = spans[2].par_iter().map(|span| span.summary(&planes, cells * cells)).collect();
+        let Summary { largest, sum } = Summary::joined(&layers, cells * cells);
+        // Rounding in the interpolation itself is relative to the values.
+        let bound: Vec<_> = largest.iter().map(|b| b.map(|b| b * (1.0 + 4.0 * f32::EPSILON))).collect();
+        let count = |cell: usize| {
+            let at = [cell % cells, cell / cells % cells, cell / cells / cells];
+            (0..3).map(|axis| spans[axis][at[axis]].samples()).product::<usize>() as f32
+        };
+        let most = |sum: &[f32; C]| sum.iter().fold(0.0f32, |a, b| a.max(*b));
+        let mean = sum.iter().enumerate().map(|(cell, sum)| most(sum) / count(cell)).collect();
         Self::padded(cells, &bound, mean)
     }
 
@@ -69,8 +84,8 @@ impl<const C: usize> MajorantGrid<C> {
             bounds.fold([0.0f32; C], |max, bound| std::array::from_fn(|c| max[c].max(bound[c])))
         };
         let mean = |cell| eight(cell).map(|at| self.mean(at)).sum::<f32>() / 8.0;
-        let bound: Vec<_> = (0..half.pow(3)).map(largest).collect();
-        Some(Self::padded(half, &bound, (0..half.pow(3)).map(mean).collect()))
+        let bound: Vec<_> = (0..half.pow(3)).into_par_iter().map(largest).collect();
+        Some(Self::padded(half, &bound, (0..half.pow(3)).into_par_iter().map(mean).collect()))
     }
 
     /// Cells per axis.
@@ -164,31 +179,83 @@ impl Span {
         let inside = (self.from.ceil() as usize)..=(self.to.floor() as usize);
         inside.map(&values).fold(at(self.from).max(at(self.to)), f32::max)
     }
+
+    fn samples(&self) -> usize {
+        self.last - self.first + 1
+    }
+
+    /// From cells of every sample along this axis to the cells of this span; `None` where all is zero.
+    fn summary<const C: usize>(&self, all: &[Option<Summary<C>>], cells: usize) -> Option<Summary<C>> {
+        let part = &all[self.first..=self.last];
+        part.iter().any(Option::is_some).then(|| {
+            let mut summary = Summary::empty(cells);
+            let inside = (self.from.ceil() as usize)..=(self.to.floor() as usize);
+            for samples in all[inside].iter().flatten() {
+                summary.raise(|i| samples.largest[i]);
+            }
+            for end in [self.from, self.to] {
+                let i = (end as usize).min(self.last);
+                let s = end - i as f32;
+                match (&all[i], &all[(i + 1).min(self.last)]) {
+                    (None, None) => {}
+                    (Some(a), None) => summary.raise(|i| a.largest[i].map(|a| a - a * s)),
+                    (None, Some(b)) => summary.raise(|i| b.largest[i].map(|b| b * s)),
+                    (Some(a), Some(b)) => summary.raise(|i| {
+                        let (a, b) = (a.largest[i], b.largest[i]);
+                        std::array::from_fn(|c| a[c] + (b[c] - a[c]) * s)
+                    }),
+                }
+            }
+            for samples in part.iter().flatten() {
+                for (sum, more) in summary.sum.iter_mut().zip(&samples.sum) {
+                    *sum = std::array::from_fn(|c| sum[c] + more[c]);
+                }
+            }
+            summary
+        })
+    }
 }
 
-/// Bound and mean of one cell.
-fn summary<const C: usize>(grid: &Grid<C>, [x, y, z]: [&Span; 3]) -> ([f32; C], f32) {
-    if grid.is_empty([x.first, y.first, z.first], [x.last, y.last, z.last]) {
-        return ([0.0; C], 0.0);
+/// What is known of some cells: the largest value and the sum of the samples of each.
+struct Summary<const C: usize> {
+    largest: Vec<[f32; C]>,
+    sum: Vec<[f32; C]>,
+}
+
+impl<const C: usize> Summary<C> {
+    fn empty(cells: usize) -> Self {
+        Self { largest: vec![[0.0; C]; cells], sum: vec![[0.0; C]; cells] }
     }
-    let mut bound = [0.0f32; C];
-    let mut mean = 0.0f32;
-    let samples = (x.last - x.first + 1) * (y.last - y.first + 1) * (z.last - z.first + 1);
-    for (c, bound) in bound.iter_mut().enumerate() {
-        let mut sum = 0.0f32;
-        let mut planes = Vec::with_capacity(z.last - z.first + 1);
-        for k in z.first..=z.last {
-            let mut rows = Vec::with_capacity(y.last - y.first + 1);
-            for j in y.first..=y.last {
-                let row: Vec<f32> = (x.first..=x.last).map(|i| grid.sample([i, j, k])[c]).collect();
-                sum += row.iter().sum::<f32>();
-                rows.push(x.largest(|i| row[i - x.first]));
-            }
-            planes.push(y.largest(|j| rows[j - y.first]));
+
+    /// The cells along a row of samples.
+    fn of_row(row: &[[f32; C]], spans: &[Span]) -> Self {
+        let largest = |span: &Span| std::array::from_fn(|c| span.largest(|i| row[i][c]));
+        let sum = |span: &Span| {
+            let samples = row[span.first..=span.last].iter();
+            samples.fold([0.0; C], |sum, v| std::array::from_fn(|c| sum[c] + v[c]))
+        };
+        Self { largest: spans.iter().map(largest).collect(), sum: spans.iter().map(sum).collect() }
+    }
+
+    /// Raises every largest value to another one.
+    #[inline(always)]
+    fn raise(&mut self, to: impl Fn(usize) -> [f32; C]) {
+        for (i, largest) in self.largest.iter_mut().enumerate() {
+            let to = to(i);
+            *largest = std::array::from_fn(|c| largest[c].max(to[c]));
         }
-        *bound = z.largest(|k| planes[k - z.first]);
-        mean = mean.max(sum / samples as f32);
     }
-    // Rounding in the interpolation itself is relative to the values.
-    (bound.map(|b| b * (1.0 + 4.0 * f32::EPSILON)), mean)
+
+    /// One after the other; what is missing is zero.
+    fn joined(parts: &[Option<Self>], cells_of_each: usize) -> Self {
+        let mut all = Self::empty(parts.len() * cells_of_each);
+        for (i, part) in parts.iter().enumerate() {
+            if let Some(part) = part {
+                let to = i * cells_of_each..(i + 1) * cells_of_each;
+                all.largest[to.clone()].copy_from_slice(&part.largest);
+                all.sum[to].copy_from_slice(&part.sum);
+            }
+        }
+        all
+    }
 }

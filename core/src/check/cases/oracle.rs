@@ -102,6 +102,9 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         let mut doc = scene_file::parse(o.toml, o.name)?;
         // The references are means over blocks of 8 × 8 pixels: the same mean over 32 × 32 pixels.
         (doc.film.width, doc.film.height) = (32, 32);
+        // A lattice needs so few samples that the rare collisions in the thin air around the plume are missed in
+        // whole blocks, which then seem to know their mean exactly.
+        doc.estimator.sampler = crate::math::SamplerKind::Independent;
         if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium.density
             && !grid.file.starts_with("../")
         {

@@ -148,10 +148,9 @@ impl<const C: usize> Grid<C> {
         self.store.sample(at)
     }
 
-    /// Whether all samples of a box, both ends included, are known to be zero.
-    #[must_use]
-    pub fn is_empty(&self, first: [usize; 3], last: [usize; 3]) -> bool {
-        self.store.is_background(first, last)
+    /// Copies the samples of a row along x; false if all of them are known to be zero.
+    pub(super) fn row(&self, yz: [usize; 2], row: &mut Vec<[f32; C]>) -> bool {
+        self.store.row(yz, self.size[0], row)
     }
 
     /// The largest value per channel; it bounds the interpolated field.

@@ -90,7 +90,11 @@ impl<const C: usize> Store<C> {
     /// The value of one sample.
     #[inline]
     pub fn sample(&self, at: [usize; 3]) -> [f32; C] {
-        let place = self.place(at);
+        self.value(self.place(at))
+    }
+
+    #[inline]
+    fn value(&self, place: usize) -> [f32; C] {
         match &self.values {
             Values::F32(values) => values[place],
             Values::F16(values) => values[place].map(f16::to_f32),
@@ -147,13 +151,20 @@ impl<const C: usize> Store<C> {
         self.index[brick] as usize * BRICK + local([x, y, z])
     }
 
-    /// Whether every sample of a box, both ends included, is background.
-    pub fn is_background(&self, first: [usize; 3], last: [usize; 3]) -> bool {
-        let brick =
-            |at: [usize; 3]| -> [usize; 3] { std::array::from_fn(|i| (at[i] + self.phase[i]) / BRICK_EDGE) };
-        let ([x0, y0, z0], [x1, y1, z1]) = (brick(first), brick(last));
+    /// Replaces `row` by the samples (0..count, y, z); false, and no samples, if only the background is there.
+    pub fn row(&self, [y, z]: [usize; 2], count: usize, row: &mut Vec<[f32; C]>) -> bool {
+        row.clear();
         let [nx, ny, _] = self.bricks;
-        (z0..=z1).all(|z| (y0..=y1).all(|y| (x0..=x1).all(|x| self.index[x + nx * (y + ny * z)] == 0)))
+        let first = nx * ((y + self.phase[1]) / BRICK_EDGE + ny * ((z + self.phase[2]) / BRICK_EDGE));
+        if self.index[first..first + nx].iter().all(|brick| *brick == 0) {
+            return false;
+        }
+        let within = local([0, y + self.phase[1], z + self.phase[2]]);
+        row.extend((self.phase[0]..self.phase[0] + count).map(|x| {
+            let brick = self.index[first + x / BRICK_EDGE] as usize;
+            self.value(brick * BRICK + x % BRICK_EDGE + within)
+        }));
+        true
     }
 
     /// Bytes of values and index.

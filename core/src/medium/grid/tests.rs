@@ -161,7 +161,9 @@ fn memory_is_that_of_the_voxels_that_hold_something() {
         let needed = 4 * full.occupied();
         assert!(full.bytes() * 2 < needed * 3, "{} bytes where {needed} are needed", full.bytes());
         assert!(full.bytes() * 4 < 4 * n * n * n, "no better than the array");
-        assert!(full.is_empty([130; 3], [159; 3]) && !full.is_empty([0; 3], [60; 3]));
+        let mut row = Vec::new();
+        assert!(!full.row([140, 140], &mut row) && full.row([60, 61], &mut row) && row.len() == n);
+        assert!((0..n).all(|x| row[x] == full.sample([x, 60, 61])));
         let quarter = grid(Precision::U8).bytes() - 4 * n.div_ceil(BRICK_EDGE).pow(3);
         assert!(quarter * 4 <= full.bytes() && grid(Precision::F16).bytes() * 19 < full.bytes() * 10);
     }
