@@ -83,6 +83,7 @@ static BRIGHT: [Entry; 1] = [Entry {
     name: "Too bright",
     summary: "",
     reference: "",
+    unused: &[],
     bias_of: |_| None,
     kernel: bright,
 }];

@@ -7,9 +7,9 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Arrangement, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
-    EstimatorDoc, Fairness, FilmDoc, GridRef, Layer, LightDoc, MajorantDoc, MeasureId, MediumDoc, Mode,
-    ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, ViewDoc,
-    WhenExceeded,
+    EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic, Heuristics, Layer, LightDoc, LightSelection,
+    MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc,
+    RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -68,6 +68,9 @@ fn everything() -> SceneDoc {
             wavelengths: WavelengthSampling::Uniform,
             directions: DirectionSampling::TowardsLights,
             absorption: Absorption::Analogue,
+            heuristics: Heuristics { components: Heuristic::Power, techniques: Heuristic::Maximum },
+            tracking: Tracking::Average,
+            lights: LightSelection::Contribution,
             max_depth: Some(7),
             roulette_depth: Some(3),
         },

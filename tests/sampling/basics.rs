@@ -87,7 +87,7 @@ fn shares([t, albedo, m]: [f64; 3], absorption: Absorption) -> [f64; 3] {
     let k = 1.0 / (t + (m - t).abs());
     let (scattering, absorbed) = match absorption {
         Absorption::Analogue => (t * albedo, t * (1.0 - albedo)),
-        Absorption::Weighted => (t, 0.0),
+        Absorption::Weighted | Absorption::Roulette => (t, 0.0),
     };
     [(m - t).abs() * k, scattering * k, absorbed * k]
 }

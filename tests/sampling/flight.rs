@@ -41,7 +41,7 @@ fn fly<L: LocalMedium<N>, const N: usize>(
     (medium, scene): (&L, &Scene),
     (ray, t_max): (&Ray, f32),
 ) {
-    for absorption in [Absorption::Analogue, Absorption::Weighted] {
+    for absorption in [Absorption::Analogue, Absorption::Weighted, Absorption::Roulette] {
         let name = format!("{name}, {absorption:?}");
         let (mut first, mut second, mut real) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..WALKS {

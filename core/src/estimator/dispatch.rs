@@ -3,8 +3,8 @@
 
 use super::Estimator;
 use crate::math::{Sampler, SamplerKind};
-use crate::medium::{AnyMedium, Medium};
-use crate::scene::{DirectionSampling, EstimatorDoc, Mode, Scene};
+use crate::medium::{AnyMedium, Medium, SharedMajorant};
+use crate::scene::{Absorption, DirectionSampling, EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transport::{PathSettings, Trace, Wanted, World};
 use glam::{Vec2, Vec3};
@@ -44,9 +44,15 @@ impl Settings {
     pub fn new(doc: &EstimatorDoc, seed: u64) -> Self {
         let path = PathSettings {
             absorption: doc.absorption,
+            heuristics: doc.heuristics,
+            tracking: doc.tracking,
+            lights: doc.lights,
             guided: doc.directions == DirectionSampling::TowardsLights,
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
-            roulette_depth: doc.roulette_depth.unwrap_or(u32::MAX),
+            roulette_depth: match doc.absorption {
+                Absorption::Roulette => 0,
+                Absorption::Analogue | Absorption::Weighted => doc.roulette_depth.unwrap_or(u32::MAX),
+            },
         };
         Self { mode: doc.mode, sampler: doc.sampler, wavelengths: doc.wavelengths, path, seed }
     }
@@ -69,7 +75,9 @@ pub(super) fn family<E: Estimator>(
     at: PathIndex,
     wanted: Wanted<'_>,
 ) -> PathEstimate {
-    match (s.mode, scene.achromatic) {
+    // What leaves components out, leaves the noise of their choice in.
+    let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
+    match (s.mode, grey) {
         (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, wanted),
         (Mode::Spectral, true) => in_medium::<E, Grey<true>, 1>(scene, s, at, wanted),
         (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, wanted),
@@ -115,8 +123,13 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let (jitter, u) = trace.sampler.camera();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
     let components = C::sample(u, settings.wavelengths);
-    let world = World { scene, medium: medium.local(&components), components, settings: settings.path };
-    let radiance = E::estimate(&world, ray, &mut trace);
+    let (medium, settings) = (medium.local(&components), settings.path);
+    let radiance = if const { E::SHARED_MAJORANT } {
+        let medium = SharedMajorant(medium);
+        E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
+    } else {
+        E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
+    };
     PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }
 }
 

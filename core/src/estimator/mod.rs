@@ -3,8 +3,10 @@
 
 mod dispatch;
 mod independent;
+mod mitsuba2_volpath;
 mod nee;
 mod spectral_mis;
+mod spectral_tracking;
 mod uni_nee_mis;
 
 pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
@@ -26,13 +28,40 @@ pub struct Entry {
     pub summary: &'static str,
     /// Where it comes from.
     pub reference: &'static str,
+    /// Choices that change nothing about it, each with the reason.
+    pub unused: &'static [(Axis, &'static str)],
     /// Why its estimate of a document's image is biased, if it is.
     pub bias_of: fn(&SceneDoc) -> Option<&'static str>,
     /// Traces one path.
     pub kernel: Kernel,
 }
 
+/// A choice that some estimators leave open and others do not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// [`crate::scene::Absorption`].
+    Absorption,
+    /// The heuristic among components.
+    Components,
+    /// The heuristic between techniques.
+    Techniques,
+    /// [`crate::scene::Tracking`].
+    Tracking,
+    /// [`crate::scene::LightSelection`].
+    Lights,
+}
+
+const ONE_TECHNIQUE: (Axis, &str) = (Axis::Techniques, "a single technique makes its paths");
+const NO_CONNECTIONS: (Axis, &str) = (Axis::Lights, "it connects to no light");
+const HERO_DRAWS: (Axis, &str) = (Axis::Tracking, "its hero draws the events");
+
 impl Entry {
+    /// Why a choice changes nothing about it, if it does not.
+    #[must_use]
+    pub fn unused(&self, axis: Axis) -> Option<&'static str> {
+        self.unused.iter().find(|(unused, _)| *unused == axis).map(|(_, why)| *why)
+    }
+
     /// Why the estimate of a document's image is biased: by a choice in the document, or because the
     /// estimator is. `None` means that its expectation is the true image.
     #[must_use]
@@ -49,7 +78,14 @@ fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
 }
 
 /// Every estimator, in the order that pickers show.
-pub static REGISTRY: &[Entry] = &[independent::ENTRY, spectral_mis::ENTRY, nee::ENTRY, uni_nee_mis::ENTRY];
+pub static REGISTRY: &[Entry] = &[
+    independent::ENTRY,
+    spectral_mis::ENTRY,
+    nee::ENTRY,
+    uni_nee_mis::ENTRY,
+    spectral_tracking::ENTRY,
+    mitsuba2_volpath::ENTRY,
+];
 
 /// The estimator with this id.
 #[must_use]
@@ -80,6 +116,9 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
 ///
 /// Its expectation, given that component j is carried at all, is the radiance at component j.
 pub trait Estimator {
+    /// Whether flights are drawn from one majorant for all components, that of the largest.
+    const SHARED_MAJORANT: bool = false;
+
     /// Traces one path.
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,

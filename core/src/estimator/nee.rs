@@ -9,7 +9,7 @@
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 
-use super::{Entry, Estimator, clamped_majorant, dispatch};
+use super::{Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
@@ -20,6 +20,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "NEE",
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
+    unused: &[ONE_TECHNIQUE, HERO_DRAWS],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<Nee>,
 };
@@ -32,6 +33,7 @@ impl Estimator for Nee {
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
+        let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
@@ -57,7 +59,7 @@ impl Estimator for Nee {
                 if vertices == 0 {
                     // No real vertex yet: only the walk can find this light.
                     for light in world.arrivals(&ray, &surface, true) {
-                        radiance += path.unidirectional(light.radiance);
+                        radiance += path.unidirectional(light.radiance, heuristics);
                     }
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
@@ -72,7 +74,7 @@ impl Estimator for Nee {
                 return radiance;
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {
-                radiance += link.weights.connected_only(link.radiance);
+                radiance += link.weights.connected_only(link.radiance, heuristics);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;

@@ -10,7 +10,7 @@
 //! lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
 
-use super::{Entry, Estimator, clamped_majorant, dispatch};
+use super::{Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Spectral MIS",
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
+    unused: &[ONE_TECHNIQUE, NO_CONNECTIONS, HERO_DRAWS],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralMis>,
 };
@@ -33,6 +34,7 @@ impl Estimator for SpectralMis {
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
+        let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
@@ -57,7 +59,7 @@ impl Estimator for SpectralMis {
             } else {
                 // The path has reached light: this is the only technique that makes it.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += path.unidirectional(light.radiance);
+                    radiance += path.unidirectional(light.radiance, heuristics);
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
                     return radiance;

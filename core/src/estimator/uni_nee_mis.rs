@@ -11,7 +11,7 @@
 //! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
 //! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
 
-use super::{Entry, Estimator, clamped_majorant, dispatch};
+use super::{Entry, Estimator, HERO_DRAWS, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
@@ -22,6 +22,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Uni+NEE MIS",
     summary: "Unidirectional and next-event estimation combined, over all components; robust.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
+    unused: &[HERO_DRAWS],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<UniNeeMis>,
 };
@@ -34,6 +35,7 @@ impl Estimator for UniNeeMis {
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
+        let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
@@ -59,9 +61,9 @@ impl Estimator for UniNeeMis {
                 // The walk has met light. Before the first real vertex only it could have.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
                     radiance += if vertices == 0 {
-                        path.unidirectional(light.radiance)
+                        path.unidirectional(light.radiance, heuristics)
                     } else {
-                        path.balanced(light.radiance, light.density)
+                        path.combined(light.radiance, light.density, heuristics)
                     };
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
@@ -76,7 +78,7 @@ impl Estimator for UniNeeMis {
                 return radiance;
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {
-                radiance += link.weights.connected_balanced(link.radiance);
+                radiance += link.weights.connected_combined(link.radiance, heuristics);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;

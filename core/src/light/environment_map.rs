@@ -94,6 +94,12 @@ pub struct EnvironmentMap {
 }
 
 impl EnvironmentMap {
+    /// Luminance integrated over all directions.
+    #[must_use]
+    pub fn illuminance(&self) -> f32 {
+        self.panorama.total as f32 * self.scale
+    }
+
     fn turned(&self, d: Vec3, angle: f32) -> Vec3 {
         let (sin, cos) = angle.sin_cos();
         Vec3::new(cos * d.x + sin * d.z, d.y, cos * d.z - sin * d.x)

@@ -3,6 +3,7 @@
 //! Densities are per steradian as seen from the shaded point. Directions point from the scene towards
 //! the light. Every light has a positive extent, so that a path which is scattered at random can meet it.
 
+mod choice;
 mod environment;
 mod environment_map;
 mod lobes;
@@ -10,6 +11,7 @@ mod rectangle;
 mod sphere;
 mod sun;
 
+pub use choice::{LightChoice, LightSelection};
 pub use environment::Environment;
 pub use environment_map::{EnvironmentMap, Panorama};
 pub use lobes::LightLobes;

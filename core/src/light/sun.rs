@@ -35,6 +35,12 @@ impl Sun {
         self.toward
     }
 
+    /// A measure of its radiance, integrated over its disc.
+    #[must_use]
+    pub fn irradiance(&self, measure: impl Fn(&Spectrum) -> f32) -> f32 {
+        measure(&self.radiance) * TAU * self.one_minus_cos_max
+    }
+
     /// Whether the disc lies in this direction.
     #[must_use]
     pub fn covers(&self, direction: Vec3) -> bool {

@@ -41,6 +41,10 @@ impl Medium for Homogeneous {
 impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
     type Segments<'a> = std::iter::Once<MajorantSegment<N>>;
 
+    fn uniform(&self) -> Option<(Sampled<N>, Sampled<N>)> {
+        Some((self.extinction, self.albedo))
+    }
+
     fn coefficients(&self, _point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
         Coefficients::new(self.extinction, self.albedo, majorant)
     }

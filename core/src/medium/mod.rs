@@ -16,6 +16,7 @@ mod majorant;
 mod majorant_grid;
 mod majorants;
 mod rgb_grids;
+mod shared_majorant;
 
 pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
@@ -26,9 +27,10 @@ pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;
 pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
+pub use shared_majorant::SharedMajorant;
 
 use crate::math::BoxRay;
-use crate::spectrum::Components;
+use crate::spectrum::{Components, Sampled};
 use glam::Vec3;
 
 /// A medium before a path has chosen its components.
@@ -48,6 +50,11 @@ pub trait LocalMedium<const N: usize> {
     type Segments<'a>: Iterator<Item = MajorantSegment<N>>
     where
         Self: 'a;
+
+    /// Extinction and albedo, if they are the same everywhere: flights and transmittance then have closed forms.
+    fn uniform(&self) -> Option<(Sampled<N>, Sampled<N>)> {
+        None
+    }
 
     /// Absorption, scattering and null coefficient at a point of medium space, with respect to the
     /// majorant of the segment that the point lies in. One density look-up.

@@ -5,7 +5,8 @@ use super::{
     SceneInfo, WhenExceeded, placement, validate,
 };
 use crate::light::{
-    Environment, EnvironmentMap, Light, LightKind, LightLobes, Panorama, RectangleLight, SphereLight, Sun,
+    Environment, EnvironmentMap, Light, LightChoice, LightKind, LightLobes, Panorama, RectangleLight,
+    SphereLight, Sun,
 };
 use crate::medium::{
     AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantGrid, MajorantPolicy,
@@ -108,6 +109,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
 
     Ok(Scene {
         lobes: LightLobes::towards(&lights),
+        light_choice: LightChoice::new(&lights, 0.5 * (hi - lo).length()),
         achromatic: medium.is_achromatic() && flat_surfaces,
         camera: Camera::new(&doc.camera, doc.film.width, doc.film.height),
         width: doc.film.width,

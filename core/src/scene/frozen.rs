@@ -1,7 +1,7 @@
 //! A scene that does not change any more: what paths are traced in.
 
 use super::Camera;
-use crate::light::{Light, LightLobes};
+use crate::light::{Light, LightChoice, LightLobes};
 use crate::math::Ray;
 use crate::medium::AnyMedium;
 use crate::phase::Phase;
@@ -27,6 +27,8 @@ pub struct Scene {
     pub surfaces: Vec<Surface>,
     /// Every light.
     pub lights: Vec<Light>,
+    /// What connections choose among the lights by.
+    pub light_choice: LightChoice,
     /// Lobes towards those lights that stand in some direction.
     pub lobes: Option<LightLobes>,
     /// Whether neither the medium nor a surface tells one wavelength from another.

@@ -19,17 +19,17 @@ pub struct Connection<R, const N: usize> {
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
-    /// Draws a light (uniformly) and a direction towards it, and walks there. `None` if nothing arrives.
+    /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
     pub fn connect(
         &self,
         vertex: &Vertex,
         path: &PathWeights<N>,
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, N>> {
-        let lights = &self.scene.lights;
         let (u, which) = trace.sampler.light();
-        let index = (which * lights.len() as f32) as usize;
-        let light = lights.get(index)?;
+        let (index, probability) =
+            self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
+        let light = self.scene.lights.get(index)?;
         let sample = light.sample(vertex.point(), u)?;
         let turn = self.turns().towards(vertex, sample.direction);
         if turn.value <= 0.0 {
@@ -40,7 +40,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         if self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
             return None;
         }
-        let mut weights = path.connect(&turn, sample.density / lights.len() as f32);
+        let mut weights = path.connect(&turn, sample.density * probability);
         let mut walk = self.walk_to_light(&ray, sample.distance);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);

@@ -52,7 +52,7 @@ impl<const N: usize> Collision<N> {
         let mut null_density = c.null.abs();
         let (mut scattering_density, mut absorption_density) = match absorption {
             Absorption::Analogue => (c.scattering, c.absorption.hero()),
-            Absorption::Weighted => (extinction, 0.0),
+            Absorption::Weighted | Absorption::Roulette => (extinction, 0.0),
         };
         let bounds = extinction.zip(c.majorant, |t, m| if t > m { 1.0 } else { 0.0 }).is_zero();
         if !bounds {
@@ -62,6 +62,14 @@ impl<const N: usize> Collision<N> {
             absorption_density *= k.hero();
         }
         Self { point, coefficients, null_density, scattering_density, absorption_density }
+    }
+
+    /// Draws whether the collision is real, by μt / μ̄ of the hero (the report's algorithm 3): where the majorant is
+    /// exceeded it always is.
+    pub fn draw_real(&self, trace: &mut Trace<'_>) -> Event {
+        let c = &self.coefficients;
+        let real = trace.sampler.event() * c.majorant.hero() < c.extinction().hero();
+        if real { Event::Scattering } else { Event::Null }
     }
 
     /// Draws the event from the hero's densities.

@@ -4,7 +4,10 @@
 //! Each has this one home; an estimator's file puts them together and holds the whole path loop.
 
 mod connection;
+mod divided;
 mod event;
+mod event_densities;
+mod heuristic;
 mod turn;
 mod vertex;
 mod walk;
@@ -13,7 +16,9 @@ mod weights;
 mod world;
 
 pub use connection::Connection;
+pub use divided::{EmitterLink, Flight};
 pub use event::{Collision, Event};
+pub use event_densities::EventDensities;
 pub use turn::{Turn, Turns};
 pub use vertex::Vertex;
 pub use walk::Walk;

@@ -20,7 +20,9 @@
 //! Decisions that do not depend on the components, such as Russian roulette, scale the contribution
 //! alone: weights that leave them out of *every* technique still sum to one.
 
+use super::heuristic::share;
 use super::{Collision, Turn};
+use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 
 /// Contribution and densities of a path, divided by the density with which it was made.
@@ -69,6 +71,25 @@ impl<const N: usize> PathWeights<N> {
         }
     }
 
+    /// A collision that was drawn as null with this density, whatever p_uni and p_nee would be.
+    #[inline]
+    pub fn null_drawn(&mut self, c: &Collision<N>, density: f32) {
+        self.contribution *= c.coefficients.null * (1.0 / density);
+    }
+
+    /// A collision that was drawn as scattering with this density, whatever p_uni and p_nee would be.
+    #[inline]
+    pub fn scatter_drawn(&mut self, c: &Collision<N>, density: f32) {
+        self.contribution *= c.coefficients.scattering * (1.0 / density);
+    }
+
+    /// f_i / P: what the path is worth so far at each component, by how it was drawn.
+    #[must_use]
+    #[inline]
+    pub fn contribution(&self) -> Sampled<N> {
+        self.settled().contribution
+    }
+
     /// A collision that the walk has drawn as null. Next-event estimation takes every collision of a
     /// connection as null, hence its μ̄.
     #[inline]
@@ -106,7 +127,7 @@ impl<const N: usize> PathWeights<N> {
 
     /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
     /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
-    /// joins p_nee in [`Self::balanced`].
+    /// joins p_nee in [`Self::combined`].
     #[inline]
     pub fn leave(&mut self, turn: &Turn) {
         let drawn = 1.0 / turn.density;
@@ -151,40 +172,92 @@ impl<const N: usize> PathWeights<N> {
         self.contribution.is_zero()
     }
 
-    /// The path's value if only the hero is ever used: f₁ / p₁, and zero elsewhere.
+    /// The path's value if only the hero is carried at all: f₁ / p₁, and zero elsewhere.
     #[must_use]
     pub fn hero_only<R: Radiance<N>>(&self, radiance: R) -> R {
-        let mut weight = Sampled::ZERO;
-        weight.0[0] = self.contribution.hero();
-        radiance * weight
+        radiance * self.hero(1.0)
     }
 
-    /// The path's value if only unidirectional sampling makes it: f_j / mean p_uni.
+    /// The path's value if nothing else could have made it: f_j / P.
     #[must_use]
-    pub fn unidirectional<R: Radiance<N>>(&self, radiance: R) -> R {
-        let now = self.settled();
-        radiance * (now.contribution * (1.0 / now.uni.mean()))
+    pub fn as_drawn<R: Radiance<N>>(&self, radiance: R) -> R {
+        radiance * self.settled().contribution
     }
 
-    /// A connection's value if only connections make such paths: f_j / mean p_nee.
+    /// The path's value if only unidirectional sampling makes it; by the balance heuristic f_j / mean p_uni.
     #[must_use]
-    pub fn connected_only<R: Radiance<N>>(&self, radiance: R) -> R {
+    #[inline]
+    pub fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * (now.contribution * (1.0 / now.nee.mean()))
+        radiance * now.among_heroes(now.uni, 1.0, heuristics.components)
+    }
+
+    /// A connection's value if only connections make such paths; by the balance heuristic f_j / mean p_nee.
+    #[must_use]
+    #[inline]
+    pub fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_heroes(now.nee, 1.0, heuristics.components)
     }
 
     /// The value of a walk that has met a light which light sampling would have drawn with
-    /// `light_density`: f_j / mean (p_uni + p_nee).
+    /// `light_density`; by the balance heuristics f_j / mean (p_uni + p_nee).
     #[must_use]
-    pub fn balanced<R: Radiance<N>>(&self, radiance: R, light_density: f32) -> R {
+    #[inline]
+    pub fn combined<R: Radiance<N>>(&self, radiance: R, light_density: f32, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * (now.contribution * (1.0 / (now.uni + now.nee * light_density).mean()))
+        radiance * now.among_all([now.uni, now.nee * light_density], heuristics)
     }
 
-    /// The value of a connection: f_j / mean (p_uni + p_nee). Its light density is in P already.
+    /// The value of a connection; by the balance heuristics f_j / mean (p_uni + p_nee). Its light density is
+    /// in P already.
     #[must_use]
-    pub fn connected_balanced<R: Radiance<N>>(&self, radiance: R) -> R {
-        self.balanced(radiance, 1.0)
+    #[inline]
+    pub fn connected_combined<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_all([now.nee, now.uni], heuristics)
+    }
+
+    /// Shares a path between the technique that made it, whose densities come first, and the other one, then among
+    /// the heroes of that technique. With p_t = mean_i p_t,i and heuristics h the weight is
+    ///
+    /// ```text
+    ///   w_t,i = h(p_t among techniques) · h(p_t,i among components)
+    /// ```
+    ///
+    /// which sums to one over both, and is p_t,i over the sum of all where h is the balance heuristic.
+    #[inline]
+    fn among_all(&self, [made, other]: [Sampled<N>; 2], heuristics: Heuristics) -> Sampled<N> {
+        if heuristics == Heuristics::default() {
+            return self.contribution * (1.0 / (made + other).mean());
+        }
+        let density = |p: Sampled<N>| match heuristics.components {
+            // Without a family of heroes each component has its own two techniques.
+            Heuristic::HeroOnly => p.hero(),
+            _ => p.mean(),
+        };
+        let densities = [made, other].map(density);
+        let of_technique = share(heuristics.techniques, densities[0], densities.into_iter());
+        self.among_heroes(made, of_technique, heuristics.components)
+    }
+
+    /// f_j / P times the weight of the hero among the components that could have been it, in place of each of
+    /// which a path is made one time in N; `weight` is what is shared.
+    #[inline]
+    fn among_heroes(&self, p: Sampled<N>, weight: f32, heuristic: Heuristic) -> Sampled<N> {
+        match heuristic {
+            Heuristic::Balance => self.contribution * (weight / p.mean()),
+            Heuristic::HeroOnly => self.hero(weight * N as f32),
+            Heuristic::Power | Heuristic::Maximum => {
+                self.contribution * (weight * N as f32 * share(heuristic, p.hero(), p.0.into_iter()))
+            }
+        }
+    }
+
+    fn hero(&self, weight: f32) -> Sampled<N> {
+        let mut hero = Sampled::ZERO;
+        hero.0[0] = self.contribution.hero() * weight;
+        hero
     }
 }
 

@@ -92,7 +92,7 @@ impl<const N: usize> Step<N> {
                 let ([t, albedo, m], density) = (of(place), f64::from(*density));
                 let drawn = match absorption {
                     Absorption::Analogue => t * albedo,
-                    Absorption::Weighted => t,
+                    Absorption::Weighted | Absorption::Roulette => t,
                 } * m
                     / (t + (m - t).abs());
                 [t * albedo * VALUE * density, drawn * density, drawn]

@@ -7,7 +7,7 @@ mod plain;
 use super::PathWeights;
 use crate::math::Sampler;
 use crate::medium::{Coefficients, MajorantSegment};
-use crate::scene::Absorption;
+use crate::scene::{Absorption, Heuristic, Heuristics};
 use crate::spectrum::Sampled;
 use crate::transport::Turn;
 use crate::transport::{Collision, Event, Trace, Wanted};
@@ -15,6 +15,8 @@ use glam::Vec3;
 use plain::{Events, events};
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestCaseError};
+
+const BALANCE: Heuristics = Heuristics { components: Heuristic::Balance, techniques: Heuristic::Balance };
 
 /// What single precision leaves of a product of thirty factors.
 const ROUNDING: f64 = 1e-4;
@@ -47,12 +49,22 @@ fn equals_plain_products<const N: usize>(events: &Events<N>) -> Result<(), TestC
             if p.f[j] == 0.0 { Ok(()) } else { assert_near("pairwise", value[j], 1.0 / pairwise) }
         };
         if can_walk {
-            check("uni", walk.unidirectional(Sampled::ONE), mean_uni, by_uni)?;
-            check("balanced walk", walk.balanced(Sampled::ONE, events.light), mean_uni + mean_nee, by_both)?;
+            check("uni", walk.unidirectional(Sampled::ONE, BALANCE), mean_uni, by_uni)?;
+            check(
+                "balanced walk",
+                walk.combined(Sampled::ONE, events.light, BALANCE),
+                mean_uni + mean_nee,
+                by_both,
+            )?;
         }
         if can_connect {
-            check("nee", link.connected_only(Sampled::ONE), mean_nee, by_nee)?;
-            check("balanced link", link.connected_balanced(Sampled::ONE), mean_uni + mean_nee, by_both)?;
+            check("nee", link.connected_only(Sampled::ONE, BALANCE), mean_nee, by_nee)?;
+            check(
+                "balanced link",
+                link.connected_combined(Sampled::ONE, BALANCE),
+                mean_uni + mean_nee,
+                by_both,
+            )?;
         }
     }
     if can_walk {
@@ -85,6 +97,54 @@ fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCase
     prop_assert!((weights - 1.0).abs() < ROUNDING, "both techniques: {weights}");
     let could_walk = plain.uni.iter().any(|p| *p > 0.0);
     prop_assert!(!could_walk || (means - 1.0).abs() < ROUNDING, "the walk alone: {means}");
+    Ok(())
+}
+
+/// As [`weights_sum_to_one`], of the values that estimators add, under every pair of heuristics.
+fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+    use Heuristic::{Balance, HeroOnly, Maximum, Power};
+    let plain = events.plain();
+    if plain.f.contains(&0.0) {
+        return Ok(());
+    }
+    for (components, techniques) in [Balance, Power, Maximum, HeroOnly]
+        .into_iter()
+        .flat_map(|components| [Balance, Power, Maximum].map(|techniques| (components, techniques)))
+    {
+        let heuristics = Heuristics { components, techniques };
+        let (mut by_hero, mut alone) = ([0.0f64; N], 0.0f64);
+        let mut possible = [false; N];
+        for hero in 0..N {
+            let turned = events.rotated(hero);
+            // What a path adds, one time in N, over what it is worth.
+            let share = |value: Sampled<N>, path: &PathWeights<N>| {
+                f64::from(value.hero()) / (f64::from(path.contribution().hero()) * N as f64)
+            };
+            if plain.uni[hero] > 0.0 {
+                let walk = turned.walk();
+                by_hero[hero] += share(walk.combined(Sampled::ONE, turned.light, heuristics), &walk);
+                alone += share(walk.unidirectional(Sampled::ONE, heuristics), &walk);
+                possible[hero] = true;
+            }
+            if plain.nee[hero] > 0.0 {
+                let link = turned.connection();
+                by_hero[hero] += share(link.connected_combined(Sampled::ONE, heuristics), &link);
+                possible[hero] = true;
+            }
+        }
+        let near_one = |sum: f64| (sum - 1.0).abs() < 2.0 * ROUNDING;
+        if components == HeroOnly {
+            // Each component has its own paths, and only those.
+            for (sum, possible) in by_hero.iter().zip(possible) {
+                prop_assert!(!possible || near_one(*sum), "{heuristics:?}: {by_hero:?}");
+            }
+        } else {
+            let sum: f64 = by_hero.iter().sum();
+            prop_assert!(near_one(sum), "{heuristics:?}: {sum}");
+            let could_walk = plain.uni.iter().any(|p| *p > 0.0);
+            prop_assert!(!could_walk || near_one(alone), "{heuristics:?}, the walk alone: {alone}");
+        }
+    }
     Ok(())
 }
 
@@ -134,6 +194,15 @@ proptest! {
     }
 
     #[test]
+    fn every_heuristic_shares_a_path_out_completely(
+        one in events::<1>(), three in events::<3>(), four in events::<4>(),
+    ) {
+        shares_sum_to_one(&one)?;
+        shares_sum_to_one(&three)?;
+        shares_sum_to_one(&four)?;
+    }
+
+    #[test]
     fn roulette_is_left_out_of_every_weight(one in events::<1>(), four in events::<4>()) {
         roulette_leaves_weights_alone(&one)?;
         roulette_leaves_weights_alone(&four)?;
@@ -166,10 +235,10 @@ fn a_hundred_thousand_events_stay_finite() {
                 path
             };
             let values = [
-                path.unidirectional(Sampled::ONE),
-                path.balanced(Sampled::ONE, 40.0),
-                link.connected_only(Sampled::ONE),
-                link.connected_balanced(Sampled::ONE),
+                path.unidirectional(Sampled::ONE, BALANCE),
+                path.combined(Sampled::ONE, 40.0, BALANCE),
+                link.connected_only(Sampled::ONE, BALANCE),
+                link.connected_combined(Sampled::ONE, BALANCE),
                 path.hero_only(Sampled::ONE),
             ];
             assert!(values.iter().flat_map(|v| v.0).all(f32::is_finite), "hero {hero}: {values:?}");

@@ -4,7 +4,7 @@ use super::{Turns, Vertex, Walk, Wanted};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
-use crate::scene::{Absorption, NearestSurface, Scene};
+use crate::scene::{Absorption, Heuristics, LightSelection, NearestSurface, Scene, Tracking};
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
 
@@ -13,6 +13,12 @@ use crate::surface::Role;
 pub struct PathSettings {
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
+    /// How a path is shared among all that could have made it.
+    pub heuristics: Heuristics,
+    /// How spectral tracking draws events.
+    pub tracking: Tracking,
+    /// Which light a connection goes to.
+    pub lights: LightSelection,
     /// Whether directions are drawn towards the lights as well as by the phase function.
     pub guided: bool,
     /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.
@@ -105,7 +111,6 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         from_camera: bool,
     ) -> impl Iterator<Item = Arrival<C::Radiance>> {
         let (ray, t, role, normal) = (*ray, end.t(), end.role(), end.normal());
-        let count = self.scene.lights.len() as f32;
         self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {
             let met = match role {
                 // Lights with a surface emit on the side of its normal only.
@@ -115,7 +120,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             };
             (met && (light.visible || !from_camera)).then(|| Arrival {
                 radiance: light.radiance(ray.direction, &self.components),
-                density: light.density(ray.origin, ray.direction, t) / count,
+                density: light.density(ray.origin, ray.direction, t)
+                    * self.scene.light_choice.probability(index, ray.origin, self.settings.lights),
             })
         })
     }

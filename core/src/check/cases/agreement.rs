@@ -10,7 +10,7 @@ use super::ASIDE;
 use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
-use crate::scene::{Absorption, DirectionSampling, Mode};
+use crate::scene::{Absorption, DirectionSampling, Heuristic, Heuristics, LightSelection, Mode, Tracking};
 use crate::spectrum::WavelengthSampling;
 
 pub(super) const FAMILY: Family = Family {
@@ -153,6 +153,25 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             d.estimator.wavelengths = WavelengthSampling::Uniform;
             d.estimator.directions = DirectionSampling::TowardsLights;
             d.medium.majorant.resolution = Some(1);
+        }),
+        plume.varied("agreement/plume-power", |d| {
+            d.estimator.heuristics =
+                Heuristics { components: Heuristic::Power, techniques: Heuristic::Power };
+            d.estimator.tracking = Tracking::Maximum;
+            d.estimator.lights = LightSelection::Power;
+        }),
+        plume.varied("agreement/plume-maximum", |d| {
+            d.estimator.heuristics =
+                Heuristics { components: Heuristic::Maximum, techniques: Heuristic::Maximum };
+            d.estimator.tracking = Tracking::Average;
+            d.estimator.lights = LightSelection::Contribution;
+            d.estimator.absorption = Absorption::Roulette;
+        }),
+        plume.varied("agreement/plume-hero-only", |d| {
+            d.estimator.heuristics =
+                Heuristics { components: Heuristic::HeroOnly, techniques: Heuristic::Power };
+            d.estimator.absorption = Absorption::Analogue;
+            d.estimator.mode = Mode::Rgb;
         }),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),

@@ -5,22 +5,25 @@
 
 mod camera;
 mod compare;
+mod estimator;
 mod light;
 mod medium;
 mod object;
 mod render;
 
 pub use crate::film::display::{ToneCurve, ViewDoc};
+pub use crate::light::LightSelection;
 pub use crate::medium::{MajorantDoc, WhenExceeded};
 pub use crate::phase::PhaseDoc;
 pub use camera::{CameraDoc, FilmDoc};
 pub use compare::{
     Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
 };
+pub use estimator::{Absorption, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, Mode, Tracking};
 pub use light::LightDoc;
 pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
-pub use render::{Absorption, DirectionSampling, EstimatorDoc, Limits, Mode, RenderDoc};
+pub use render::{Limits, RenderDoc};
 
 use serde::{Deserialize, Serialize};
 

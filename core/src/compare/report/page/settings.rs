@@ -40,6 +40,7 @@ fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) 
         absorption: match estimator.absorption {
             Absorption::Analogue => "analogue",
             Absorption::Weighted => "weighted",
+            Absorption::Roulette => "roulette",
         },
         depth: estimator.max_depth.map_or_else(|| "unlimited".into(), |d| d.to_string()),
         roulette: estimator.roulette_depth.map_or_else(|| "never".into(), |d| format!("after {d}")),

@@ -1,0 +1,168 @@
+//! The axes of an estimate: choices that any estimator combines with, but for those it has no use for.
+
+use crate::widgets::{hint, optional, row, segmented};
+use egui::{RichText, Ui};
+use majorant_core::estimator::{self, Axis};
+use majorant_core::math::SamplerKind;
+use majorant_core::scene::{
+    Absorption, DirectionSampling, EstimatorDoc, Heuristic, LightSelection, Mode, Tracking,
+};
+use majorant_core::spectrum::WavelengthSampling;
+
+/// All of them.
+pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
+    components_ui(ui, doc);
+    open_ui(ui, doc, Axis::Absorption, absorption_ui);
+    sampling_ui(ui, doc);
+    open_ui(ui, doc, Axis::Lights, lights_ui);
+    combination_ui(ui, doc);
+    path_length_ui(ui, doc, opened);
+}
+
+/// A choice as it is, or greyed out with the reason where the estimator does not have it.
+fn open_ui(ui: &mut Ui, doc: &mut EstimatorDoc, axis: Axis, choice: impl FnOnce(&mut Ui, &mut EstimatorDoc)) {
+    let entry = estimator::find(&doc.id);
+    let why = entry.and_then(|entry| entry.unused(axis));
+    let scope = ui.add_enabled_ui(why.is_none(), |ui| choice(ui, doc));
+    if let (Some(why), Some(entry)) = (why, entry) {
+        scope.response.on_hover_text(format!("Nothing to choose under {}: {why}.", entry.name));
+    }
+}
+
+fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Components", "What a path carries", |ui, _| {
+        let options = [
+            (Mode::Spectral, "Spectral", "Wavelengths from 360 to 830 nm, seen by the CIE 1931 observer"),
+            (Mode::Rgb, "RGB", "Three fixed components: red, green, blue"),
+        ];
+        segmented(ui, "Components", &mut doc.mode, &options);
+    });
+    if doc.mode == Mode::Spectral {
+        row(
+            ui,
+            "Wavelengths",
+            "How the hero's wavelength is drawn; the others are rotations of it",
+            |ui, _| {
+                let options = [
+                    (
+                        WavelengthSampling::Sensor,
+                        "By sensor",
+                        "Often where the sensor responds: less colour noise",
+                    ),
+                    (WavelengthSampling::Uniform, "Uniform", "Evenly from 360 to 830 nm, as in the report"),
+                ];
+                segmented(ui, "Wavelengths", &mut doc.wavelengths, &options);
+            },
+        );
+    }
+}
+
+fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Absorption", "What happens at a collision that may absorb", |ui, _| {
+        let options = [
+            (Absorption::Weighted, "Weighted", "Never drawn; scattering carries the albedo as a weight"),
+            (Absorption::Analogue, "Analogue", "An event that ends the path, as in Miller et al. 2019"),
+            (Absorption::Roulette, "Roulette", "Weighted, and ended by roulette after light was connected"),
+        ];
+        segmented(ui, "Absorption", &mut doc.absorption, &options);
+    });
+    hint(
+        ui,
+        match doc.absorption {
+            Absorption::Weighted => "Each scattering multiplies the path by the albedo: P(real) = σt / μ.",
+            Absorption::Analogue => "A path ends with P(absorb) = σa / μ and otherwise keeps its weight.",
+            Absorption::Roulette => {
+                "A path goes on with P = albedo, decided after light was connected: the report's cost, less noise."
+            }
+        },
+    );
+}
+
+fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Lights", "Which light a connection goes to", |ui, _| {
+        let options = [
+            (LightSelection::Uniform, "Uniform", "Any, with the same probability"),
+            (LightSelection::Power, "Power", "In proportion to what each emits"),
+            (LightSelection::Contribution, "Nearby", "In proportion to what would arrive from each"),
+        ];
+        segmented(ui, "Lights", &mut doc.lights, &options);
+    });
+}
+
+/// How the ways in which a path could have been made share it.
+fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    const BALANCE: (Heuristic, &str, &str) =
+        (Heuristic::Balance, "Balance", "In proportion to the densities");
+    const POWER: (Heuristic, &str, &str) = (Heuristic::Power, "Power", "In proportion to their squares");
+    const MAXIMUM: (Heuristic, &str, &str) = (Heuristic::Maximum, "Max", "All to the largest density");
+    egui::CollapsingHeader::new(RichText::new("Combination").small()).show_unindented(ui, |ui| {
+        open_ui(ui, doc, Axis::Components, |ui, doc| {
+            let tip = "How the components that could have been the hero share a path";
+            row(ui, "Heroes", tip, |ui, _| {
+                let none = (Heuristic::HeroOnly, "None", "Only the hero is used: colour noise returns");
+                let options = [BALANCE, POWER, MAXIMUM, none];
+                segmented(ui, "Heroes", &mut doc.heuristics.components, &options);
+            });
+        });
+        open_ui(ui, doc, Axis::Techniques, |ui, doc| {
+            let tip = "How unidirectional sampling and next-event estimation share a path";
+            row(ui, "Techniques", tip, |ui, _| {
+                segmented(ui, "Techniques", &mut doc.heuristics.techniques, &[BALANCE, POWER, MAXIMUM]);
+            });
+        });
+        open_ui(ui, doc, Axis::Tracking, |ui, doc| {
+            row(ui, "Tracking", "What spectral tracking draws events by", |ui, _| {
+                let options = [
+                    (Tracking::Maximum, "Max", "The largest coefficient over components"),
+                    (Tracking::Average, "Average", "Their average"),
+                    (Tracking::History, "History", "Their average by what the path is worth at each"),
+                ];
+                segmented(ui, "Tracking", &mut doc.tracking, &options);
+            });
+        });
+    });
+}
+
+/// How random decisions are spread, and where directions come from: the same mean, another variance.
+fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Samples", "How the samples of a pixel relate to each other", |ui, _| {
+        let options = [
+            (SamplerKind::Independent, "Independent", "Not at all: error bars are exact"),
+            (SamplerKind::Lattice, "Lattice", "Spread evenly over the first decisions of a path: less noise"),
+        ];
+        segmented(ui, "Samples", &mut doc.sampler, &options);
+    });
+    row(ui, "Directions", "What directions in the medium are drawn from", |ui, _| {
+        let options = [
+            (DirectionSampling::Phase, "Phase", "The phase function, as in the papers"),
+            (
+                DirectionSampling::TowardsLights,
+                "Guided",
+                "Also from broad lobes towards the lights: wins for light from the side through forward scattering",
+            ),
+        ];
+        segmented(ui, "Directions", &mut doc.directions, &options);
+    });
+    if doc.sampler == SamplerKind::Lattice {
+        hint(ui, "Error bars overstate the error: samples of a lattice hang together.");
+    }
+}
+
+fn path_length_ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
+    egui::CollapsingHeader::new(RichText::new("Path length").small()).show_unindented(ui, |ui| {
+        let depth = "Most segments of a path: 1 is emission only, 2 is single scattering";
+        optional(ui, "Max depth", (&mut doc.max_depth, opened.max_depth), 8, "unlimited", depth, |v| {
+            v.range(1.0..=10_000.0)
+        });
+        let roulette = "Ends faint paths at random after this many scatterings; unbiased";
+        optional(
+            ui,
+            "Roulette from",
+            (&mut doc.roulette_depth, opened.roulette_depth),
+            16,
+            "never",
+            roulette,
+            |v| v.range(0.0..=10_000.0),
+        );
+    });
+}

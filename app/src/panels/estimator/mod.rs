@@ -1,0 +1,54 @@
+//! How light transport is estimated: the registry as one-click choices, and what they share.
+
+mod axes;
+mod card;
+
+use super::{Column, Cx, Panel};
+use crate::theme::Palette;
+use crate::widgets::{callout, hint};
+use egui::{Color32, Ui};
+use majorant_core::estimator::{self, REGISTRY};
+
+/// See the [module](self).
+pub struct Estimator;
+
+impl Panel for Estimator {
+    fn id(&self) -> &'static str {
+        "estimator"
+    }
+    fn title(&self) -> &'static str {
+        "Estimator"
+    }
+    fn column(&self) -> Column {
+        Column::Method
+    }
+    fn starts_open(&self) -> bool {
+        true
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        let id = &cx.draft.estimator.id;
+        estimator::find(id).map_or_else(|| format!("{id}?"), |entry| entry.name.to_owned())
+    }
+    fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
+        estimator::find(&cx.draft.estimator.id).is_none().then_some(palette.error)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let doc = &mut cx.draft.estimator;
+        if estimator::find(&doc.id).is_none() {
+            let text = format!("The scene asks for `{}`, which does not exist. Choose one of these.", doc.id);
+            callout(ui, Palette::get(ui).error, &text);
+        }
+        for entry in REGISTRY {
+            if card::ui(ui, entry, doc.id == entry.id) {
+                entry.id.clone_into(&mut doc.id);
+            }
+        }
+        // Below the cards, which stay where they are: one may click back and forth to compare.
+        if let Some(entry) = estimator::find(&doc.id) {
+            hint(ui, entry.reference);
+        }
+        ui.add_space(crate::theme::UNIT);
+        axes::ui(ui, doc, &cx.opened.estimator);
+    }
+}

@@ -1,0 +1,119 @@
+//! The report's older baseline: the volumetric path tracer that Mitsuba 2 had before the null-scattering path integral.
+//!
+//! ```text
+//!   φ = throughput / density, one number per component; at every vertex, with the power heuristic,
+//!   L += φ T Le f_p p_e / (p_e² + p_p²)   along a direction drawn towards a light
+//!   L += φ T Le f_p p_p / (p_p² + p_e²)   along the direction in which the path goes on
+//! ```
+//!
+//! Multiple importance sampling happens per bounce: whole paths have no density here. A uniform medium
+//! is flown through by the mean extinction of all components (algorithm 2), and its transmittance is exact. A
+//! heterogeneous one is flown through by delta tracking (algorithm 3), which knows no other component than its own,
+//! and its transmittance is estimated by ratio tracking. **Where the extinction of a heterogeneous medium has
+//! a colour, every path therefore carries one component**, which is what people did by rendering component by
+//! component. Every vertex walks twice towards light and a third time to its successor.
+//! Horešovský's report, algorithms 1–3, appendix A.
+
+use super::{Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, dispatch};
+use crate::math::Ray;
+use crate::medium::{AnyMedium, LocalMedium};
+use crate::scene::{DensityDoc, Scene, SceneDoc};
+use crate::spectrum::{Components, Radiance, Sampled};
+use crate::transport::{Trace, Vertex, Wanted, World};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "mitsuba2-volpath",
+    name: "Mitsuba 2 volpath",
+    summary: "The report's older baseline: MIS per bounce, one component at a time in chromatic grids.",
+    reference: "Horešovský's report, algorithms 1–3; Nimier-David et al. 2019",
+    unused: &[
+        (Axis::Absorption, "its scattering is weighted by μs / μt"),
+        (Axis::Components, "it knows no densities of whole paths"),
+        (Axis::Techniques, "it combines them per bounce, by the power heuristic"),
+        (Axis::Tracking, "delta tracking draws its events"),
+    ],
+    bias_of: exceeded_majorant,
+    kernel: kernel as Kernel,
+};
+
+/// Delta tracking has no weight for collisions that exceed the majorant.
+fn exceeded_majorant(doc: &SceneDoc) -> Option<&'static str> {
+    let uniform = matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none();
+    (doc.medium.majorant.factor < 1.0 && !uniform)
+        .then_some("its delta tracking needs a majorant that bounds")
+}
+
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+    if matches!(scene.medium, AnyMedium::Homogeneous(_)) || scene.achromatic {
+        dispatch::family::<Mitsuba2Volpath>(scene, settings, at, wanted)
+    } else {
+        dispatch::single::<Mitsuba2Volpath>(scene, settings, at, wanted)
+    }
+}
+
+struct Mitsuba2Volpath;
+
+impl Estimator for Mitsuba2Volpath {
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace<'_>,
+    ) -> C::Radiance {
+        let mut radiance = C::Radiance::BLACK;
+        let mut phi = Sampled::ONE;
+        let mut vertices = 0;
+        loop {
+            let surface = world.nearest_surface(&ray, vertices == 0);
+            let flight = world.sample_distance(&ray, surface.t(), trace);
+            phi *= flight.weight;
+
+            let vertex = if let Some(point) = flight.scattered_at {
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                // Light that later segments meet was added when their direction was drawn.
+                if vertices == 0 {
+                    for light in world.arrivals(&ray, &surface, true) {
+                        radiance += light.radiance * phi;
+                    }
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                phi *= albedo;
+                vertex
+            };
+
+            vertices += 1;
+            if vertices >= world.settings.max_depth || phi.is_zero() || trace.must_stop() {
+                return radiance;
+            }
+
+            // A direction drawn towards a light.
+            if let Some(link) = world.sample_emitter(&vertex, trace) {
+                let (p_e, p_p) = (link.light_density, link.turn.density);
+                let weight = link.turn.value * p_e / (p_e * p_e + p_p * p_p);
+                radiance += link.radiance * (phi * link.transmittance * weight);
+            }
+
+            // The direction in which the path goes on.
+            let turn = world.turns().draw(&vertex, trace.sampler.direction());
+            trace.sampler.start_vertex();
+            ray = Ray { origin: vertex.point(), direction: turn.direction };
+            let end = world.nearest_surface(&ray, false);
+            for light in world.arrivals(&ray, &end, false) {
+                let (p_e, p_p) = (light.density, turn.density);
+                let weight = turn.value * p_p / (p_p * p_p + p_e * p_e);
+                radiance += light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
+            }
+            phi *= turn.value / turn.density;
+
+            if vertices >= world.settings.roulette_depth {
+                let q = phi.max_component().clamp(0.05, 1.0);
+                if trace.sampler.roulette() >= q {
+                    return radiance;
+                }
+                phi *= 1.0 / q;
+            }
+        }
+    }
+}

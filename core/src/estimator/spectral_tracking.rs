@@ -1,0 +1,87 @@
+//! Spectral tracking: one path for all components, drawn for none of them in particular.
+//!
+//! ```text
+//!   L_j ≈ Le_j · Π_k  e_j(x_k) / ( μ̄ P_e(x_k) ),      P_e in proportion to max_i e_i, mean_i e_i or mean_i |w_i e_i|
+//! ```
+//!
+//! Flights are drawn from the majorant of the densest component, events from probabilities that look at all
+//! components; each component's weight w_j then follows what was drawn. No density of the path is ever formed, so
+//! nothing can be combined by multiple importance sampling: the forerunner and main competitor of spectral
+//! MIS. With the history in the probabilities weights stay bounded, at the price of a look at every component per event.
+//! Wins over hero wavelengths where components differ little; loses where one is far denser, as all of
+//! them then pay for its collisions. Kutz, Habel, Li and Novák 2017, "Spectral and decomposition tracking for rendering
+//! heterogeneous volumes", section 5.1, algorithm 4.
+
+use super::{Axis, Entry, Estimator, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_majorant, dispatch};
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::spectrum::{Components, Radiance};
+use crate::transport::{EventDensities, PathWeights, Trace, Vertex, World};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "spectral-tracking",
+    name: "Spectral tracking",
+    summary: "All components share each unidirectional path by event probabilities instead of MIS.",
+    reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
+    unused: &[
+        (Axis::Components, "it forms no densities that could be combined"),
+        ONE_TECHNIQUE,
+        NO_CONNECTIONS,
+    ],
+    bias_of: clamped_majorant,
+    kernel: dispatch::family::<SpectralTracking>,
+};
+
+pub(super) struct SpectralTracking;
+
+impl Estimator for SpectralTracking {
+    const SHARED_MAJORANT: bool = true;
+
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace<'_>,
+    ) -> C::Radiance {
+        let mut radiance = C::Radiance::BLACK;
+        let mut path = PathWeights::CAMERA;
+        let mut vertices = 0;
+        loop {
+            // Fly until something real happens; the weights follow every event.
+            let surface = world.nearest_surface(&ray, vertices == 0);
+            let mut walk = world.walk(&ray, surface.t());
+            let scattered_at = loop {
+                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                let densities = EventDensities::of(&collision, &path.contribution(), &world.settings);
+                let u = trace.sampler.event() * densities.total();
+                if u < densities.null {
+                    path.null_drawn(&collision, densities.drawn(densities.null));
+                } else if u < densities.null + densities.scattering {
+                    path.scatter_drawn(&collision, densities.drawn(densities.scattering));
+                    break Some(collision.point);
+                } else {
+                    return radiance;
+                }
+            };
+
+            let vertex = if let Some(point) = scattered_at {
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                for light in world.arrivals(&ray, &surface, vertices == 0) {
+                    radiance += path.as_drawn(light.radiance);
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                path.reflect(albedo);
+                vertex
+            };
+
+            vertices += 1;
+            if !world.goes_on(vertices, &path, trace) || !world.survives_roulette(vertices, &mut path, trace)
+            {
+                return radiance;
+            }
+            ray = world.leave(&vertex, &mut path, trace);
+        }
+    }
+}

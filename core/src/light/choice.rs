@@ -1,0 +1,176 @@
+//! Which light a connection goes to.
+
+use super::{Light, LightKind};
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+use std::f32::consts::{PI, TAU};
+
+/// Which light a connection goes to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightSelection {
+    /// Any, with the same probability.
+    #[default]
+    Uniform,
+    /// In proportion to what lights emit: wins where many are faint.
+    Power,
+    /// In proportion to what would reach the point from each, were nothing in the way: wins where lights stand
+    /// at different distances. Costs a look at every light per connection.
+    Contribution,
+}
+
+/// Share of choices that are uniform, so that no light is ruled out by an estimate.
+const UNIFORM: f32 = 0.1;
+
+/// What is known of every light before paths are traced.
+#[derive(Clone, Debug, Default)]
+pub struct LightChoice {
+    sources: Vec<Source>,
+    /// Probability of each by power.
+    by_power: Vec<f32>,
+}
+
+/// A light as far as its illumination goes.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// Emits on its normal's side.
+    Rectangle {
+        center: Vec3,
+        normal: Vec3,
+        area: f32,
+        luminance: f32,
+    },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+        luminance: f32,
+    },
+    /// Luminance integrated over directions: the same everywhere.
+    Distant {
+        illuminance: f32,
+    },
+}
+
+impl Source {
+    fn new(light: &Light) -> Self {
+        let luminance = |spectrum: &Spectrum| spectrum.film_colour().dot(Vec3::new(0.2126, 0.7152, 0.0722));
+        match &light.kind {
+            LightKind::Rectangle(l) => Self::Rectangle {
+                center: l.shape.center,
+                normal: l.shape.normal,
+                area: l.shape.area,
+                luminance: luminance(&l.radiance),
+            },
+            LightKind::Sphere(l) => Self::Sphere {
+                center: l.shape.center,
+                radius: l.shape.radius,
+                luminance: luminance(&l.radiance),
+            },
+            LightKind::Sun(l) => Self::Distant { illuminance: l.irradiance(luminance) },
+            LightKind::Environment(l) => Self::Distant { illuminance: luminance(&l.radiance) * 2.0 * TAU },
+            LightKind::EnvironmentMap(l) => Self::Distant { illuminance: l.illuminance() },
+        }
+    }
+
+    /// What it emits, as luminous flux; distant lights into a ball of this radius.
+    fn power(self, radius: f32) -> f32 {
+        match self {
+            Self::Rectangle { area, luminance, .. } => PI * area * luminance,
+            Self::Sphere { radius, luminance, .. } => 4.0 * PI * PI * radius * radius * luminance,
+            Self::Distant { illuminance } => PI * radius * radius * illuminance,
+        }
+    }
+
+    /// Illuminance at a point that turns to it, roughly: up close it stays finite.
+    fn illuminance(self, at: Vec3) -> f32 {
+        match self {
+            Self::Rectangle { center, normal, area, luminance } => {
+                let away = at - center;
+                let squared = away.length_squared();
+                let cosine = normal.dot(away) / squared.sqrt().max(f32::MIN_POSITIVE);
+                // Seen edge-on from its middle, parts of it may still be seen from the front.
+                luminance * (area * cosine.max(0.05) / squared.max(f32::MIN_POSITIVE)).min(TAU)
+            }
+            Self::Sphere { center, radius, luminance } => {
+                let sine_squared = radius * radius / at.distance_squared(center).max(f32::MIN_POSITIVE);
+                luminance * PI * sine_squared.min(4.0)
+            }
+            Self::Distant { illuminance } => illuminance,
+        }
+    }
+}
+
+impl LightChoice {
+    /// Among these lights, around a medium that fits a ball of this radius.
+    #[must_use]
+    pub fn new(lights: &[Light], medium_radius: f32) -> Self {
+        let sources: Vec<_> = lights.iter().map(Source::new).collect();
+        let powers: Vec<f32> = sources.iter().map(|s| s.power(medium_radius).max(0.0)).collect();
+        let total: f32 = powers.iter().sum();
+        let by_power = powers.iter().map(|power| mixed(*power, total, powers.len())).collect();
+        Self { sources, by_power }
+    }
+
+    /// Chooses a light by a number uniform in [0, 1): its index and the probability of that choice. `None` if
+    /// there are none.
+    #[must_use]
+    #[inline]
+    pub fn choose(&self, at: Vec3, u: f32, by: LightSelection) -> Option<(usize, f32)> {
+        let count = self.sources.len();
+        match by {
+            LightSelection::Uniform => {
+                let index = (u * count as f32) as usize;
+                (index < count).then(|| (index, 1.0 / count as f32))
+            }
+            LightSelection::Power => pick(u, self.by_power.iter().copied()),
+            LightSelection::Contribution => {
+                let total = self.total_illuminance(at);
+                pick(u, self.sources.iter().map(|s| mixed(s.illuminance(at), total, count)))
+            }
+        }
+    }
+
+    /// The probability with which [`Self::choose`] chooses a light.
+    #[must_use]
+    #[inline]
+    pub fn probability(&self, index: usize, at: Vec3, by: LightSelection) -> f32 {
+        let count = self.sources.len();
+        match by {
+            LightSelection::Uniform => 1.0 / count as f32,
+            LightSelection::Power => self.by_power.get(index).copied().unwrap_or(0.0),
+            LightSelection::Contribution => {
+                let total = self.total_illuminance(at);
+                self.sources.get(index).map_or(0.0, |s| mixed(s.illuminance(at), total, count))
+            }
+        }
+    }
+
+    fn total_illuminance(&self, at: Vec3) -> f32 {
+        self.sources.iter().map(|s| s.illuminance(at)).sum()
+    }
+}
+
+/// Probability of one of `count` with this value among values of this total.
+fn mixed(value: f32, total: f32, count: usize) -> f32 {
+    let uniform = 1.0 / count as f32;
+    if total > 0.0 && total.is_finite() {
+        UNIFORM * uniform + (1.0 - UNIFORM) * value / total
+    } else {
+        uniform
+    }
+}
+
+/// The last one takes what rounding leaves.
+fn pick(u: f32, probabilities: impl Iterator<Item = f32>) -> Option<(usize, f32)> {
+    let mut left = u;
+    let mut chosen = None;
+    for (index, probability) in probabilities.enumerate() {
+        chosen = Some((index, probability));
+        if left < probability {
+            break;
+        }
+        left -= probability;
+    }
+    chosen
+}

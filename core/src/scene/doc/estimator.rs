@@ -1,0 +1,164 @@
+//! The estimator as edited: independent axes of one method.
+
+use crate::light::LightSelection;
+use crate::math::SamplerKind;
+use crate::spectrum::WavelengthSampling;
+use serde::{Deserialize, Serialize};
+
+/// How light transport is estimated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EstimatorDoc {
+    /// An id of [`crate::estimator::REGISTRY`].
+    pub id: String,
+    /// What a path's components stand for.
+    pub mode: Mode,
+    /// How the samples of a pixel relate to each other.
+    pub sampler: SamplerKind,
+    /// How spectral mode draws the hero's wavelength.
+    pub wavelengths: WavelengthSampling,
+    /// What directions in the medium are drawn from.
+    pub directions: DirectionSampling,
+    /// What happens at a collision that may absorb.
+    pub absorption: Absorption,
+    /// How the ways in which a path could have been made share it.
+    pub heuristics: Heuristics,
+    /// How spectral tracking draws events.
+    pub tracking: Tracking,
+    /// Which light a connection goes to.
+    pub lights: LightSelection,
+    /// Most segments of a path between camera, scattering vertices and light: 1 is emission only, 2 is
+    /// single scattering. Absent: unlimited.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_depth: Option<u32>,
+    /// Russian roulette, unbiased, after this many scattering vertices: a path goes on with a probability
+    /// that is its throughput, between 0.05 and 1. `None`, written `"never"`: not at all. From 16 on it costs
+    /// nothing where little is absorbed, and spares most of the work deep in a medium that absorbs a tenth.
+    #[serde(with = "roulette")]
+    pub roulette_depth: Option<u32>,
+}
+
+impl Default for EstimatorDoc {
+    fn default() -> Self {
+        Self {
+            id: "uni-nee-mis".into(),
+            mode: Mode::Spectral,
+            sampler: SamplerKind::Independent,
+            wavelengths: WavelengthSampling::Sensor,
+            directions: DirectionSampling::Phase,
+            absorption: Absorption::Weighted,
+            heuristics: Heuristics::default(),
+            tracking: Tracking::History,
+            lights: LightSelection::Uniform,
+            max_depth: None,
+            roulette_depth: Some(16),
+        }
+    }
+}
+
+/// A number of vertices, or `"never"`: absent means the default, which is not never.
+mod roulette {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "a number of scattering vertices, or \"never\"")]
+    enum Written {
+        After(u32),
+        Word(String),
+    }
+
+    pub fn serialize<S: Serializer>(depth: &Option<u32>, to: S) -> Result<S::Ok, S::Error> {
+        match depth {
+            Some(vertices) => vertices.serialize(to),
+            None => "never".serialize(to),
+        }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<u32>, D::Error> {
+        match Written::deserialize(from)? {
+            Written::After(vertices) => Ok(Some(vertices)),
+            Written::Word(word) if word == "never" => Ok(None),
+            Written::Word(word) => {
+                Err(D::Error::custom(format!("{word:?} is neither a number of vertices nor \"never\"")))
+            }
+        }
+    }
+}
+
+/// What a path's components stand for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mode {
+    /// Wavelengths from 360 to 830 nm, seen by the CIE 1931 observer.
+    #[default]
+    Spectral,
+    /// Three fixed components: red, green, blue.
+    Rgb,
+}
+
+/// What directions in the medium are drawn from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DirectionSampling {
+    /// The phase function, as in the papers.
+    #[default]
+    Phase,
+    /// A mixture of the phase function and of broad lobes towards the lights: wins where light comes from the
+    /// side and scattering is sharply forward.
+    TowardsLights,
+}
+
+/// How multiple importance sampling divides a path among all that could have made it (Veach 1997, section 9.2), for
+/// the two families that Miller et al. 2019 combine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Heuristics {
+    /// Among the components that could have been the hero.
+    pub components: Heuristic,
+    /// Between unidirectional sampling and next-event estimation.
+    pub techniques: Heuristic,
+}
+
+/// A heuristic of multiple importance sampling.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Heuristic {
+    /// In proportion to the densities; no other is much better, and some are much worse.
+    #[default]
+    Balance,
+    /// In proportion to their squares: sharper where one of them is good.
+    Power,
+    /// All to the largest density.
+    Maximum,
+    /// No combination: components other than the hero are left out. Only among components.
+    HeroOnly,
+}
+
+/// How spectral tracking draws the event at a collision (Kutz et al. 2017, section 5.1): in proportion to what
+/// of its coefficients.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tracking {
+    /// The largest over components.
+    Maximum,
+    /// Their average.
+    Average,
+    /// Their average, weighted by what the path is worth at each component.
+    #[default]
+    History,
+}
+
+/// What happens at a collision in a medium that absorbs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Absorption {
+    /// Absorption is an event that ends the path, as in the report and in Miller et al. 2019.
+    Analogue,
+    /// Absorption is never drawn; scattering carries the albedo as a weight.
+    #[default]
+    Weighted,
+    /// As [`Self::Weighted`], with Russian roulette from the first vertex on: where a path has scattered and light
+    /// has been connected, it goes on with about the probability that it was not absorbed. Ends paths as often as
+    /// the report's events do, but after each vertex has had its light.
+    Roulette,
+}

@@ -1,0 +1,56 @@
+//! How a path is shared among all that could have made it: heuristics of multiple importance sampling.
+
+use crate::scene::Heuristic;
+
+/// Densities that differ by no more than this are the same to the maximum heuristic: rounding must not decide
+/// between equals, or different heroes would decide differently.
+const TIE: f32 = 1e-4;
+
+/// The weight of the strategy whose density is `own` among those with densities `all`, itself included: over
+/// all strategies the weights sum to one (Veach 1997, equations 9.10–9.13). Densities may share any unit.
+///
+/// [`Heuristic::HeroOnly`] has no weight; whoever combines nothing must not ask.
+#[must_use]
+#[inline]
+pub fn share(heuristic: Heuristic, own: f32, all: impl Iterator<Item = f32> + Clone) -> f32 {
+    let largest = all.clone().fold(0.0, f32::max);
+    if largest <= 0.0 || own <= 0.0 {
+        return 0.0;
+    }
+    // In units of the largest, nothing overflows.
+    let relative = |density: f32| density / largest;
+    match heuristic {
+        Heuristic::Balance | Heuristic::HeroOnly => relative(own) / all.map(relative).sum::<f32>(),
+        Heuristic::Power => relative(own).powi(2) / all.map(|density| relative(density).powi(2)).sum::<f32>(),
+        Heuristic::Maximum => {
+            let tied = |density: &f32| relative(*density) >= 1.0 - TIE;
+            if tied(&own) { 1.0 / all.filter(tied).count() as f32 } else { 0.0 }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_sum_to_one_and_favour_the_large() {
+        for heuristic in [Heuristic::Balance, Heuristic::Power, Heuristic::Maximum] {
+            for all in [[1.0f32, 3.0, 0.0], [1e30, 1e-30, 2e30], [2.0, 2.0, 2.0], [0.0, 0.0, 1e-38]] {
+                let weights = all.map(|own| share(heuristic, own, all.into_iter()));
+                assert!(
+                    (weights.iter().sum::<f32>() - 1.0).abs() < 1e-6,
+                    "{heuristic:?} {all:?} {weights:?}"
+                );
+                for (weight, density) in weights.iter().zip(all) {
+                    assert!(*weight >= 0.0 && (density > 0.0 || *weight == 0.0));
+                }
+            }
+        }
+        let of_three = |heuristic| share(heuristic, 3.0, [1.0, 3.0].into_iter());
+        assert_eq!(
+            [Heuristic::Balance, Heuristic::Power, Heuristic::Maximum].map(of_three),
+            [0.75, 0.9, 1.0]
+        );
+    }
+}
