@@ -6,7 +6,7 @@ use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
 use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
-    Absorption, Arrangement, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
+    Absorption, Arrangement, Bookkeeping, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
     EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic, Heuristics, Layer, LightDoc, LightSelection,
     MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc,
     RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
@@ -69,6 +69,7 @@ fn everything() -> SceneDoc {
             directions: DirectionSampling::TowardsLights,
             absorption: Absorption::Analogue,
             heuristics: Heuristics { components: Heuristic::Power, techniques: Heuristic::Maximum },
+            bookkeeping: Bookkeeping::ApartF64,
             tracking: Tracking::Average,
             lights: LightSelection::Contribution,
             max_depth: Some(7),

@@ -11,7 +11,7 @@ use majorant_core::math::{BoxRay, Ray, Sampler};
 use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
 use majorant_core::scene::{Absorption, Scene, build};
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
-use majorant_core::transport::{Event, PathWeights, Trace, Walk, Wanted};
+use majorant_core::transport::{Event, PathWeights, Trace, Walk, Wanted, Weights};
 use majorant_tests::chi2::Family;
 
 const WALKS: u64 = 30_000;

@@ -130,9 +130,9 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
     let mut counts = vec![0u64; plan.layout.blocks()];
     let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, non_finite: None };
     let first = plan.first_sample + index * plan.spp;
-    // Samples of one lattice hang together; batches must not.
+    // Samples of one sequence hang together; batches must not.
     let mut settings = *plan.settings;
-    if settings.sampler == SamplerKind::Lattice {
+    if settings.sampler != SamplerKind::Independent {
         settings.seed = settings.seed.wrapping_add((index + 1) << 32);
     }
     for y in 0..size.1 {

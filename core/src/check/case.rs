@@ -64,6 +64,13 @@ impl Case {
         self
     }
 
+    /// The same for some of the estimators only.
+    #[must_use]
+    pub fn among(mut self, registry: &'static [Entry]) -> Self {
+        self.registry = registry;
+        self
+    }
+
     /// The same after an edit, under another name.
     #[must_use]
     pub fn varied(&self, name: impl Into<String>, edit: impl FnOnce(&mut SceneDoc)) -> Self {

@@ -45,6 +45,7 @@ impl Settings {
         let path = PathSettings {
             absorption: doc.absorption,
             heuristics: doc.heuristics,
+            bookkeeping: doc.bookkeeping,
             tracking: doc.tracking,
             lights: doc.lights,
             guided: doc.directions == DirectionSampling::TowardsLights,

@@ -9,18 +9,26 @@
 //! and unbiased; but components see different paths, which shows as colour noise (the report's figure 2,
 //! left). Miller, Georgiev and Jarosz 2019, section 5.1.
 
-use super::{Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_majorant, dispatch};
+use super::{
+    Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, RESCALED, clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "independent",
     name: "Independent tracking",
     summary: "One colour component per path; simple, and the source of colour noise.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Horešovský's report, figure 2",
-    unused: &[(Axis::Components, "its paths carry one component"), ONE_TECHNIQUE, NO_CONNECTIONS, HERO_DRAWS],
+    unused: &[
+        (Axis::Components, "its paths carry one component"),
+        ONE_TECHNIQUE,
+        NO_CONNECTIONS,
+        HERO_DRAWS,
+        RESCALED,
+    ],
     bias_of: clamped_majorant,
     kernel: dispatch::single::<Independent>,
 };

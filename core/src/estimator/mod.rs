@@ -13,7 +13,7 @@ pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::scene::{self, Problem, ReferenceDoc, SceneDoc, WhenExceeded};
+use crate::scene::{self, Bookkeeping, Heuristic, Heuristics, Problem, ReferenceDoc, SceneDoc, WhenExceeded};
 use crate::spectrum::Components;
 use crate::transport::{Trace, World};
 
@@ -45,6 +45,8 @@ pub enum Axis {
     Components,
     /// The heuristic between techniques.
     Techniques,
+    /// [`crate::scene::Bookkeeping`].
+    Books,
     /// [`crate::scene::Tracking`].
     Tracking,
     /// [`crate::scene::LightSelection`].
@@ -53,6 +55,7 @@ pub enum Axis {
 
 const ONE_TECHNIQUE: (Axis, &str) = (Axis::Techniques, "a single technique makes its paths");
 const NO_CONNECTIONS: (Axis, &str) = (Axis::Lights, "it connects to no light");
+const RESCALED: (Axis, &str) = (Axis::Books, "its weights are rescaled; Uni+NEE MIS has the others");
 const HERO_DRAWS: (Axis, &str) = (Axis::Tracking, "its hero draws the events");
 
 impl Entry {
@@ -103,6 +106,21 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     }
     if let ReferenceDoc::Render { estimator, .. } = &doc.compare.reference {
         named.push(("compare.reference.estimator".to_owned(), estimator));
+    }
+    let views = doc.compare.views.iter().enumerate();
+    let views = views.map(|(i, view)| (format!("compare.views[{i}].estimator"), &view.estimator));
+    for (path, estimator) in [("estimator".to_owned(), &doc.estimator)].into_iter().chain(views) {
+        let problem =
+            |key: &str, message: &str| Problem { path: format!("{path}.{key}"), message: message.into() };
+        if estimator.heuristics.techniques == Heuristic::HeroOnly {
+            let why = "techniques cannot go without a heuristic: choose balance, power or maximum";
+            problems.push(problem("heuristics.techniques", why));
+        }
+        if estimator.bookkeeping == Bookkeeping::Pairwise && estimator.heuristics != Heuristics::default() {
+            let why =
+                "of quotients of pairs only the balance heuristic can be formed: choose rescaled, or balance";
+            problems.push(problem("bookkeeping", why));
+        }
     }
     for (path, id) in named.into_iter().filter(|(_, id)| find(id).is_none()) {
         let known: Vec<_> = REGISTRY.iter().map(|e| e.id).collect();

@@ -9,18 +9,18 @@
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 
-use super::{Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, clamped_majorant, dispatch};
+use super::{Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, RESCALED, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "nee",
     name: "NEE",
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
-    unused: &[ONE_TECHNIQUE, HERO_DRAWS],
+    unused: &[ONE_TECHNIQUE, HERO_DRAWS, RESCALED],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<Nee>,
 };

@@ -10,18 +10,20 @@
 //! lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
 
-use super::{Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_majorant, dispatch};
+use super::{
+    Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, RESCALED, clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-mis",
     name: "Spectral MIS",
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
-    unused: &[ONE_TECHNIQUE, NO_CONNECTIONS, HERO_DRAWS],
+    unused: &[ONE_TECHNIQUE, NO_CONNECTIONS, HERO_DRAWS, RESCALED],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralMis>,
 };

@@ -16,7 +16,7 @@ use super::{Axis, Entry, Estimator, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_major
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{EventDensities, PathWeights, Trace, Vertex, World};
+use crate::transport::{EventDensities, PathWeights, Trace, Vertex, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-tracking",
@@ -24,6 +24,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "All components share each unidirectional path by event probabilities instead of MIS.",
     reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
     unused: &[
+        (Axis::Books, "it has no densities to keep"),
         (Axis::Components, "it forms no densities that could be combined"),
         ONE_TECHNIQUE,
         NO_CONNECTIONS,

@@ -11,11 +11,15 @@
 //! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
 //! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
 
-use super::{Entry, Estimator, HERO_DRAWS, clamped_majorant, dispatch};
+use super::{Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
+use crate::scene::{Bookkeeping, Scene};
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, World};
+use crate::transport::{
+    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, Wanted, Weights, World,
+};
+use std::marker::PhantomData;
 
 pub(super) const ENTRY: Entry = Entry {
     id: "uni-nee-mis",
@@ -24,12 +28,23 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
     unused: &[HERO_DRAWS],
     bias_of: clamped_majorant,
-    kernel: dispatch::family::<UniNeeMis>,
+    kernel,
 };
 
-pub(super) struct UniNeeMis;
+/// One kernel for every way to keep the books.
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+    let kernel = match settings.path.bookkeeping {
+        Bookkeeping::Rescaled => dispatch::family::<UniNeeMis<Rescaled>>,
+        Bookkeeping::ApartF32 => dispatch::family::<UniNeeMis<ApartF32>>,
+        Bookkeeping::ApartF64 => dispatch::family::<UniNeeMis<ApartF64>>,
+        Bookkeeping::Pairwise => dispatch::family::<UniNeeMis<Pairwise>>,
+    };
+    kernel(scene, settings, at, wanted)
+}
 
-impl Estimator for UniNeeMis {
+struct UniNeeMis<B>(PhantomData<B>);
+
+impl<B: Books> Estimator for UniNeeMis<B> {
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
@@ -37,7 +52,7 @@ impl Estimator for UniNeeMis {
     ) -> C::Radiance {
         let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
-        let mut path = PathWeights::CAMERA;
+        let mut path = B::Weights::<N>::CAMERA;
         let mut vertices = 0;
         loop {
             // Fly until something real happens; the weights follow every null collision.

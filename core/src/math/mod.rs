@@ -5,6 +5,7 @@ mod frame;
 mod polar;
 mod ray;
 mod sampler;
+mod stratified;
 
 pub use fast::{exp, ln, sin_cos_turns};
 pub use frame::Frame;

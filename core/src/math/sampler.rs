@@ -1,6 +1,7 @@
 //! Random numbers as a pure function of (seed, pixel, sample).
 
 use super::ln;
+use super::stratified::Stratified;
 use glam::{Vec2, Vec3};
 use rand_core::RngCore;
 use rand_pcg::Pcg32;
@@ -17,6 +18,9 @@ pub enum SamplerKind {
     /// is as random as before, together they are spread more evenly. The spread of samples then overstates
     /// the error of their mean.
     Lattice,
+    /// The same decisions follow an Owen-scrambled Sobol sequence: less even than the lattice, but with no
+    /// structure that a scene could meet badly. The same caveat.
+    Sobol,
 }
 
 /// The random numbers of one path, so that a path can be replayed alone and an image does not depend on who
@@ -24,58 +28,12 @@ pub enum SamplerKind {
 #[derive(Clone, Debug)]
 pub struct Sampler {
     rng: Pcg32,
-    lattice: Option<LatticePoint>,
-}
-
-/// A generating vector for up to 2^20 points in base 2, every prefix of 2^k of them being a lattice too (Cools,
-/// Kuo and Nuyens 2006, "Constructing embedded lattice rules for multivariate integration").
-const GENERATOR: [u32; 51] = [
-    1, 182_667, 469_891, 498_753, 110_745, 446_247, 250_185, 118_627, 245_333, 283_199, 408_519, 391_023,
-    246_327, 126_539, 399_185, 461_527, 300_343, 69_681, 516_695, 436_179, 106_383, 238_523, 413_283, 70_841,
-    47_719, 300_129, 113_029, 123_925, 410_745, 211_325, 17_489, 511_893, 40_767, 186_077, 519_471, 255_369,
-    101_819, 243_573, 66_189, 152_143, 503_455, 113_217, 132_603, 463_967, 297_717, 157_383, 224_015,
-    502_917, 36_237, 94_049, 170_665,
-];
-
-/// Dimensions before the first vertex: place within the pixel, components.
-const CAMERA: usize = 3;
-/// Dimensions of a vertex, in order: direction, point on a light, light, roulette, then optical depth and
-/// event of so many collisions.
-const PER_VERTEX: usize = 12;
-const COLLISIONS: usize = 3;
-const FIRST_COLLISION: usize = PER_VERTEX - 2 * COLLISIONS;
-/// Vertices whose decisions are stratified; later ones are too scattered to gain from it.
-const STRATIFIED_VERTICES: usize = (GENERATOR.len() - CAMERA) / PER_VERTEX;
-
-/// A point of a shifted lattice, of which a path has used some dimensions.
-#[derive(Clone, Debug)]
-struct LatticePoint {
-    /// The sample's radical inverse in base 2, in units of 2^−32.
-    inverse: u32,
-    /// What the shifts of all dimensions follow from.
-    shift: u32,
-    vertex: usize,
-    /// Optical depths and events that the vertex has taken.
-    flights: usize,
-    events: usize,
-}
-
-impl LatticePoint {
-    #[inline]
-    fn at(&self, dimension: usize) -> f32 {
-        let shift = (mix(u64::from(self.shift) << 8 | dimension as u64) >> 32) as u32;
-        unit(self.inverse.wrapping_mul(GENERATOR[dimension]).wrapping_add(shift))
-    }
-
-    #[inline]
-    fn of_vertex(&self, which: usize) -> f32 {
-        self.at(CAMERA + PER_VERTEX * self.vertex + which)
-    }
+    stratified: Option<Stratified>,
 }
 
 /// A number in [0, 1) from the upper 24 bits.
 #[inline]
-fn unit(bits: u32) -> f32 {
+pub(super) fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
@@ -84,26 +42,27 @@ impl Sampler {
     #[must_use]
     pub fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         let key = mix(mix(seed).wrapping_add(pixel));
-        Self { rng: Pcg32::new(mix(key.wrapping_add(sample)), key), lattice: None }
+        Self { rng: Pcg32::new(mix(key.wrapping_add(sample)), key), stratified: None }
     }
 
     /// Numbers of a kind for sample number `sample` of pixel number `pixel` under `seed`.
     #[must_use]
     pub fn of_kind(kind: SamplerKind, seed: u64, pixel: u64, sample: u64) -> Self {
         let mut sampler = Self::new(seed, pixel, sample);
-        if kind == SamplerKind::Lattice {
-            // After the last point of the lattice another one begins.
-            let shift = mix(mix(mix(seed) ^ (sample >> 20)).wrapping_add(pixel)) as u32;
-            let inverse = (sample as u32 & 0xf_ffff).reverse_bits();
-            sampler.lattice = Some(LatticePoint { inverse, shift, vertex: 0, flights: 0, events: 0 });
-        }
+        // After the last point of a sequence another one begins.
+        let seed = |period: u32| mix(mix(mix(seed) ^ (sample >> period)).wrapping_add(pixel)) as u32;
+        sampler.stratified = match kind {
+            SamplerKind::Independent => None,
+            SamplerKind::Lattice => Some(Stratified::lattice(sample, seed(Stratified::LATTICE_BITS))),
+            SamplerKind::Sobol => Some(Stratified::sobol(sample, seed(Stratified::SOBOL_BITS))),
+        };
         sampler
     }
 
     /// The place within the pixel, and a number that chooses the path's components.
     #[inline]
     pub fn camera(&mut self) -> (Vec2, f32) {
-        match &self.lattice {
+        match &self.stratified {
             Some(point) => (Vec2::new(point.at(0), point.at(1)), point.at(2)),
             None => (self.next_2d(), self.next_1d()),
         }
@@ -112,19 +71,15 @@ impl Sampler {
     /// Begins the decisions that lead to the next vertex.
     #[inline]
     pub fn start_vertex(&mut self) {
-        if let Some(point) = &mut self.lattice {
-            point.vertex += 1;
-            (point.flights, point.events) = (0, 0);
-            if point.vertex == STRATIFIED_VERTICES {
-                self.lattice = None;
-            }
+        if self.stratified.as_mut().is_some_and(|point| !point.start_vertex()) {
+            self.stratified = None;
         }
     }
 
     /// Two numbers for the direction in which the path leaves its vertex.
     #[inline]
     pub fn direction(&mut self) -> Vec2 {
-        match &self.lattice {
+        match &self.stratified {
             Some(point) => Vec2::new(point.of_vertex(0), point.of_vertex(1)),
             None => self.next_2d(),
         }
@@ -133,7 +88,7 @@ impl Sampler {
     /// Two numbers for the point on a light, and one for the choice of the light.
     #[inline]
     pub fn light(&mut self) -> (Vec2, f32) {
-        match &self.lattice {
+        match &self.stratified {
             Some(point) => (Vec2::new(point.of_vertex(2), point.of_vertex(3)), point.of_vertex(4)),
             None => (self.next_2d(), self.next_1d()),
         }
@@ -142,7 +97,7 @@ impl Sampler {
     /// A number that decides whether the path survives its vertex.
     #[inline]
     pub fn roulette(&mut self) -> f32 {
-        match &self.lattice {
+        match &self.stratified {
             Some(point) => point.of_vertex(5),
             None => self.next_1d(),
         }
@@ -151,26 +106,15 @@ impl Sampler {
     /// An optical depth with density e^(−τ), −ln(1 − ξ), on the way to the next vertex.
     #[inline]
     pub fn optical_depth(&mut self) -> f32 {
-        let xi = match &mut self.lattice {
-            Some(point) if point.flights < COLLISIONS => {
-                point.flights += 1;
-                point.of_vertex(FIRST_COLLISION + 2 * (point.flights - 1))
-            }
-            _ => self.next_1d(),
-        };
-        -ln(1.0 - xi)
+        let stratified = self.stratified.as_mut().and_then(Stratified::flight);
+        -ln(1.0 - stratified.unwrap_or_else(|| self.next_1d()))
     }
 
     /// A number that decides what happens at a collision on the way to the next vertex.
     #[inline]
     pub fn event(&mut self) -> f32 {
-        match &mut self.lattice {
-            Some(point) if point.events < COLLISIONS => {
-                point.events += 1;
-                point.of_vertex(FIRST_COLLISION + 2 * point.events - 1)
-            }
-            _ => self.next_1d(),
-        }
+        let stratified = self.stratified.as_mut().and_then(Stratified::event);
+        stratified.unwrap_or_else(|| self.next_1d())
     }
 
     /// An optical depth with density e^(−τ), independent of all others.
@@ -204,7 +148,7 @@ pub fn numbers_of_point(point: Vec3, salt: u32) -> Vec3 {
 }
 
 /// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every input bit reaches every output bit.
-fn mix(x: u64) -> u64 {
+pub(super) fn mix(x: u64) -> u64 {
     let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -213,6 +157,7 @@ fn mix(x: u64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::stratified::STRATIFIED_VERTICES;
     use super::*;
 
     #[test]
@@ -231,9 +176,14 @@ mod tests {
     /// other pixels and seeds are scrambled otherwise.
     #[test]
     fn decisions_of_a_run_are_evenly_spread() {
+        evenly_spread(SamplerKind::Lattice, 1 << 20);
+        evenly_spread(SamplerKind::Sobol, 1 << 16);
+    }
+
+    fn evenly_spread(kind: SamplerKind, length: u64) {
         let n = 64u64;
         let draw = |seed, pixel, sample, vertices: usize| {
-            let mut s = Sampler::of_kind(SamplerKind::Lattice, seed, pixel, sample);
+            let mut s = Sampler::of_kind(kind, seed, pixel, sample);
             let (jitter, component) = s.camera();
             for _ in 0..vertices {
                 s.start_vertex();
@@ -253,13 +203,21 @@ mod tests {
                 // Between any two of 64 evenly spaced numbers there is one, whatever the shift.
                 let mut numbers: Vec<f32> = (3 * n..4 * n).map(|s| draw(1, 7, s, vertices)[which]).collect();
                 numbers.sort_by(f32::total_cmp);
-                let gaps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
-                let even = gaps.fold(0.0f32, |worst, gap| worst.max((gap * n as f32 - 1.0).abs()));
-                assert!(even < 1e-3, "decision {which} after {vertices} vertices: {even}");
+                let even = match kind {
+                    SamplerKind::Lattice => {
+                        let gaps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
+                        gaps.fold(0.0f32, |worst, gap| worst.max((gap * n as f32 - 1.0).abs()))
+                    }
+                    // One in every 64th; flights come back from an exponential.
+                    _ => numbers.iter().zip(0u8..).fold(0.0f32, |worst, (x, i)| {
+                        worst.max((x * n as f32 - f32::from(i) - 0.5).abs() - 0.5)
+                    }),
+                };
+                assert!(even < 1e-3, "{kind:?}: decision {which} after {vertices} vertices: {even}");
             }
         }
         let base = draw(1, 7, 0, 1);
-        for other in [draw(2, 7, 0, 1), draw(1, 8, 0, 1), draw(1, 7, 1 << 20, 1), draw(1, 7, 1, 1)] {
+        for other in [draw(2, 7, 0, 1), draw(1, 8, 0, 1), draw(1, 7, length, 1), draw(1, 7, 1, 1)] {
             assert!(base.iter().zip(other).all(|(a, b)| *a != b));
         }
     }

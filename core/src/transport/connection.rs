@@ -3,7 +3,7 @@
 //! Every collision on the way is taken as null (ratio tracking), so that the connection always
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{PathWeights, Trace, Vertex, World};
+use super::{Trace, Vertex, Weights, World};
 use crate::light::Emitter;
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -11,21 +11,21 @@ use crate::spectrum::Components;
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
-pub struct Connection<R, const N: usize> {
+pub struct Connection<R, W> {
     /// Weights of the whole path, camera to light, as made by the connection.
-    pub weights: PathWeights<N>,
+    pub weights: W,
     /// Emitted radiance.
     pub radiance: R,
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
-    pub fn connect(
+    pub fn connect<W: Weights<N>>(
         &self,
         vertex: &Vertex,
-        path: &PathWeights<N>,
+        path: &W,
         trace: &mut Trace<'_>,
-    ) -> Option<Connection<C::Radiance, N>> {
+    ) -> Option<Connection<C::Radiance, W>> {
         let (u, which) = trace.sampler.light();
         let (index, probability) =
             self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;

@@ -3,6 +3,7 @@
 //!
 //! Each has this one home; an estimator's file puts them together and holds the whole path loop.
 
+mod bookkeeping;
 mod connection;
 mod divided;
 mod event;
@@ -13,8 +14,11 @@ mod vertex;
 mod walk;
 mod wanted;
 mod weights;
+mod weights_apart;
+mod weights_pairwise;
 mod world;
 
+pub use bookkeeping::{ApartF32, ApartF64, Books, Pairwise, Rescaled, Weights};
 pub use connection::Connection;
 pub use divided::{EmitterLink, Flight};
 pub use event::{Collision, Event};
@@ -24,4 +28,6 @@ pub use vertex::Vertex;
 pub use walk::Walk;
 pub use wanted::Wanted;
 pub use weights::PathWeights;
+pub use weights_apart::WeightsApart;
+pub use weights_pairwise::WeightsPairwise;
 pub use world::{Arrival, PathSettings, Trace, World};

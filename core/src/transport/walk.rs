@@ -3,7 +3,7 @@
 //! An optical depth with density e^(−τ) is drawn once per collision and spent segment by segment, so
 //! that a ray may cross any number of segments at the price of one logarithm.
 
-use super::{Collision, PathWeights, Trace};
+use super::{Collision, Trace, Weights};
 use crate::math::{BoxRay, Ray};
 use crate::medium::{LocalMedium, MajorantSegment};
 use crate::scene::{Absorption, Scene};
@@ -68,7 +68,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     pub fn next_collision(
         &mut self,
         trace: &mut Trace<'_>,
-        weights: &mut PathWeights<N>,
+        weights: &mut impl Weights<N>,
     ) -> Option<Collision<N>> {
         let way = self.way.as_mut()?;
         if trace.must_stop() {

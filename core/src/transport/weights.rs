@@ -21,7 +21,7 @@
 //! alone: weights that leave them out of *every* technique still sum to one.
 
 use super::heuristic::share;
-use super::{Collision, Turn};
+use super::{Collision, Turn, Weights};
 use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 
@@ -38,15 +38,12 @@ pub struct PathWeights<const N: usize> {
 /// The most optical depth that waits: e^(±16) times what an event does to a weight stays within f32.
 const MOST_PENDING: f32 = 16.0;
 
-impl<const N: usize> PathWeights<N> {
-    /// A path that has just left the camera.
-    pub const CAMERA: Self =
+impl<const N: usize> Weights<N> for PathWeights<N> {
+    const CAMERA: Self =
         Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE, pending: Sampled::ZERO };
 
-    /// A stretch without collision, of optical depth μ̄ᵢ t by the majorants: e^(−μ̄ᵢ t) for all. The
-    /// exponential is taken once for many stretches, when a value is asked for.
     #[inline]
-    pub fn pass(&mut self, optical_depth: Sampled<N>) {
+    fn pass(&mut self, optical_depth: Sampled<N>) {
         if N == 1 {
             return;
         }
@@ -56,6 +53,89 @@ impl<const N: usize> PathWeights<N> {
         }
     }
 
+    #[inline]
+    fn null(&mut self, c: &Collision<N>) {
+        self.pass_null(c, c.null_density.hero());
+    }
+
+    #[inline]
+    fn null_by_ratio(&mut self, c: &Collision<N>) {
+        self.pass_null(c, c.coefficients.majorant.hero());
+    }
+
+    #[inline]
+    fn scatter(&mut self, c: &Collision<N>) {
+        let scale = 1.0 / c.scattering_density.hero();
+        self.contribution *= c.coefficients.scattering * scale;
+        self.uni *= c.scattering_density * scale;
+    }
+
+    #[inline]
+    fn reflect(&mut self, albedo: Sampled<N>) {
+        self.contribution *= albedo;
+    }
+
+    #[inline]
+    fn leave(&mut self, turn: &Turn) {
+        let drawn = 1.0 / turn.density;
+        if turn.value != turn.density {
+            self.contribution *= turn.value * drawn;
+        }
+        self.nee = self.uni * drawn;
+    }
+
+    #[inline]
+    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+        let drawn = 1.0 / light_density;
+        Self {
+            contribution: self.contribution * (turn.value * drawn),
+            uni: self.uni * (turn.density * drawn),
+            nee: self.uni,
+            pending: self.pending,
+        }
+    }
+
+    #[inline]
+    fn survive(&mut self, q: f32) {
+        self.contribution *= 1.0 / q;
+    }
+
+    fn throughput(&self) -> f32 {
+        let now = self.settled();
+        now.contribution.abs().max_component() / now.uni.mean()
+    }
+
+    #[inline]
+    fn is_dark(&self) -> bool {
+        self.contribution.is_zero()
+    }
+
+    #[inline]
+    fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_heroes(now.uni, 1.0, heuristics.components)
+    }
+
+    #[inline]
+    fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_heroes(now.nee, 1.0, heuristics.components)
+    }
+
+    #[inline]
+    fn combined<R: Radiance<N>>(&self, radiance: R, light_density: f32, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_all([now.uni, now.nee * light_density], heuristics)
+    }
+
+    #[inline]
+    fn connected_combined<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        let now = self.settled();
+        radiance * now.among_all([now.nee, now.uni], heuristics)
+    }
+}
+
+impl<const N: usize> PathWeights<N> {
     /// The same weights with nothing pending.
     #[inline]
     fn settled(&self) -> Self {
@@ -90,86 +170,12 @@ impl<const N: usize> PathWeights<N> {
         self.settled().contribution
     }
 
-    /// A collision that the walk has drawn as null. Next-event estimation takes every collision of a
-    /// connection as null, hence its μ̄.
-    #[inline]
-    pub fn null(&mut self, c: &Collision<N>) {
-        self.pass_null(c, c.null_density.hero());
-    }
-
-    /// A collision on a connection, which takes all as null (ratio tracking).
-    #[inline]
-    pub fn null_by_ratio(&mut self, c: &Collision<N>) {
-        self.pass_null(c, c.coefficients.majorant.hero());
-    }
-
     #[inline]
     fn pass_null(&mut self, c: &Collision<N>, made_with: f32) {
         let scale = 1.0 / made_with;
         self.contribution *= c.coefficients.null * scale;
         self.uni *= c.null_density * scale;
         self.nee *= c.coefficients.majorant * scale;
-    }
-
-    /// A collision that the walk has drawn as scattering: μs, without the phase function.
-    #[inline]
-    pub fn scatter(&mut self, c: &Collision<N>) {
-        let scale = 1.0 / c.scattering_density.hero();
-        self.contribution *= c.coefficients.scattering * scale;
-        self.uni *= c.scattering_density * scale;
-    }
-
-    /// A diffuse reflection: its albedo, without the cosine lobe.
-    #[inline]
-    pub fn reflect(&mut self, albedo: Sampled<N>) {
-        self.contribution *= albedo;
-    }
-
-    /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
-    /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
-    /// joins p_nee in [`Self::combined`].
-    #[inline]
-    pub fn leave(&mut self, turn: &Turn) {
-        let drawn = 1.0 / turn.density;
-        if turn.value != turn.density {
-            self.contribution *= turn.value * drawn;
-        }
-        self.nee = self.uni * drawn;
-    }
-
-    /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
-    /// the path. From here on P is p_nee of the hero.
-    #[must_use]
-    #[inline]
-    pub fn connect(&self, turn: &Turn, light_density: f32) -> Self {
-        let drawn = 1.0 / light_density;
-        Self {
-            contribution: self.contribution * (turn.value * drawn),
-            uni: self.uni * (turn.density * drawn),
-            nee: self.uni,
-            pending: self.pending,
-        }
-    }
-
-    /// Continues with probability `q`.
-    #[inline]
-    pub fn survive(&mut self, q: f32) {
-        self.contribution *= 1.0 / q;
-    }
-
-    /// How bright the path is at its brightest component relative to how likely it is for any hero;
-    /// the same whichever component is the hero.
-    #[must_use]
-    pub fn throughput(&self) -> f32 {
-        let now = self.settled();
-        now.contribution.abs().max_component() / now.uni.mean()
-    }
-
-    /// Whether nothing can come of the path any more.
-    #[must_use]
-    #[inline]
-    pub fn is_dark(&self) -> bool {
-        self.contribution.is_zero()
     }
 
     /// The path's value if only the hero is carried at all: f₁ / p₁, and zero elsewhere.
@@ -182,40 +188,6 @@ impl<const N: usize> PathWeights<N> {
     #[must_use]
     pub fn as_drawn<R: Radiance<N>>(&self, radiance: R) -> R {
         radiance * self.settled().contribution
-    }
-
-    /// The path's value if only unidirectional sampling makes it; by the balance heuristic f_j / mean p_uni.
-    #[must_use]
-    #[inline]
-    pub fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
-        let now = self.settled();
-        radiance * now.among_heroes(now.uni, 1.0, heuristics.components)
-    }
-
-    /// A connection's value if only connections make such paths; by the balance heuristic f_j / mean p_nee.
-    #[must_use]
-    #[inline]
-    pub fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
-        let now = self.settled();
-        radiance * now.among_heroes(now.nee, 1.0, heuristics.components)
-    }
-
-    /// The value of a walk that has met a light which light sampling would have drawn with
-    /// `light_density`; by the balance heuristics f_j / mean (p_uni + p_nee).
-    #[must_use]
-    #[inline]
-    pub fn combined<R: Radiance<N>>(&self, radiance: R, light_density: f32, heuristics: Heuristics) -> R {
-        let now = self.settled();
-        radiance * now.among_all([now.uni, now.nee * light_density], heuristics)
-    }
-
-    /// The value of a connection; by the balance heuristics f_j / mean (p_uni + p_nee). Its light density is
-    /// in P already.
-    #[must_use]
-    #[inline]
-    pub fn connected_combined<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
-        let now = self.settled();
-        radiance * now.among_all([now.nee, now.uni], heuristics)
     }
 
     /// Shares a path between the technique that made it, whose densities come first, and the other one, then among

@@ -1,12 +1,12 @@
 //! Paths as strings of events, with f, p_uni and p_nee as they are defined: in double precision,
 //! straight from the table of events, and in Miller's pairwise form.
 
-use super::PathWeights;
 use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
 use crate::spectrum::Sampled;
 use crate::transport::Collision;
 use crate::transport::Turn;
+use crate::transport::Weights;
 use glam::Vec3;
 use proptest::array::uniform;
 use proptest::prelude::*;
@@ -148,7 +148,7 @@ impl<const N: usize> Events<N> {
         events
     }
 
-    fn apply(&self, path: &mut PathWeights<N>, step: &Step<N>) {
+    fn apply(&self, path: &mut impl Weights<N>, step: &Step<N>) {
         match step {
             Step::Pass { majorant, distance } => path.pass(Sampled(*majorant) * *distance),
             Step::Null(place) => path.null(&place.collision(self.absorption)),
@@ -162,14 +162,14 @@ impl<const N: usize> Events<N> {
         }
     }
 
-    fn up_to_vertex(&self) -> PathWeights<N> {
-        let mut path = PathWeights::CAMERA;
+    fn up_to_vertex<W: Weights<N>>(&self) -> W {
+        let mut path = W::CAMERA;
         self.before.iter().for_each(|step| self.apply(&mut path, step));
         path
     }
 
     /// The weights as the walk makes the path.
-    pub fn walk(&self) -> PathWeights<N> {
+    pub fn walk<W: Weights<N>>(&self) -> W {
         let mut path = self.up_to_vertex();
         self.apply(&mut path, &self.vertex);
         self.after.iter().for_each(|step| self.apply(&mut path, step));
@@ -177,8 +177,8 @@ impl<const N: usize> Events<N> {
     }
 
     /// The weights as a connection from the last vertex makes the path.
-    pub fn connection(&self) -> PathWeights<N> {
-        let mut path = self.up_to_vertex();
+    pub fn connection<W: Weights<N>>(&self) -> W {
+        let mut path = self.up_to_vertex::<W>();
         match &self.vertex {
             Step::Scatter(place, _) => path.scatter(&place.collision(self.absorption)),
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),

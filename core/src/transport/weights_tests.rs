@@ -10,7 +10,7 @@ use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::{Absorption, Heuristic, Heuristics};
 use crate::spectrum::Sampled;
 use crate::transport::Turn;
-use crate::transport::{Collision, Event, Trace, Wanted};
+use crate::transport::{Collision, Event, Trace, Wanted, Weights, WeightsApart, WeightsPairwise};
 use glam::Vec3;
 use plain::{Events, events};
 use proptest::prelude::*;
@@ -32,9 +32,9 @@ fn mean<const N: usize>(f: impl FnMut(usize) -> f64) -> f64 {
 }
 
 /// Every way to use a path, each by its definition and by the pairwise form.
-fn equals_plain_products<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+fn equals_plain_products<W: Weights<N>, const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let p = events.plain();
-    let (walk, link) = (events.walk(), events.connection());
+    let (walk, link) = (events.walk::<W>(), events.connection::<W>());
     let can_walk = p.uni[0] > 0.0;
     let can_connect = p.nee[0] > 0.0;
     let mean_uni = mean::<N>(|i| p.uni[i]);
@@ -67,7 +67,13 @@ fn equals_plain_products<const N: usize>(events: &Events<N>) -> Result<(), TestC
             )?;
         }
     }
-    if can_walk {
+    Ok(())
+}
+
+fn the_hero_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+    let p = events.plain();
+    if p.uni[0] > 0.0 {
+        let walk = events.walk::<PathWeights<N>>();
         assert_near("hero", walk.hero_only(Sampled::ONE)[0], p.f[0] / p.uni[0])?;
     }
     Ok(())
@@ -83,13 +89,13 @@ fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCase
         let sum = |values: Sampled<N>| values.0.iter().map(|x| f64::from(*x)).sum::<f64>();
         // The density that made the path is the unit of the rescaled numbers.
         if plain.uni[hero] > 0.0 {
-            let walk = turned.walk();
+            let walk = turned.walk::<PathWeights<N>>();
             assert_near("p_uni of the hero", walk.uni.hero(), 1.0)?;
             weights += 1.0 / sum(walk.uni + walk.nee * turned.light);
             means += 1.0 / sum(walk.uni);
         }
         if plain.nee[hero] > 0.0 {
-            let link = turned.connection();
+            let link = turned.connection::<PathWeights<N>>();
             assert_near("p_nee of the hero", link.nee.hero(), 1.0)?;
             weights += 1.0 / sum(link.uni + link.nee);
         }
@@ -121,13 +127,13 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
                 f64::from(value.hero()) / (f64::from(path.contribution().hero()) * N as f64)
             };
             if plain.uni[hero] > 0.0 {
-                let walk = turned.walk();
+                let walk = turned.walk::<PathWeights<N>>();
                 by_hero[hero] += share(walk.combined(Sampled::ONE, turned.light, heuristics), &walk);
                 alone += share(walk.unidirectional(Sampled::ONE, heuristics), &walk);
                 possible[hero] = true;
             }
             if plain.nee[hero] > 0.0 {
-                let link = turned.connection();
+                let link = turned.connection::<PathWeights<N>>();
                 by_hero[hero] += share(link.connected_combined(Sampled::ONE, heuristics), &link);
                 possible[hero] = true;
             }
@@ -154,8 +160,8 @@ fn roulette_leaves_weights_alone<const N: usize>(events: &Events<N>) -> Result<(
     let without = events.without_roulette();
     let gain = plain.f[0] / without.plain().f[0];
     for (hero, a, b) in [
-        (plain.uni[0], events.walk(), without.walk()),
-        (plain.nee[0], events.connection(), without.connection()),
+        (plain.uni[0], events.walk::<PathWeights<N>>(), without.walk::<PathWeights<N>>()),
+        (plain.nee[0], events.connection::<PathWeights<N>>(), without.connection::<PathWeights<N>>()),
     ] {
         if hero > 0.0 {
             prop_assert_eq!((a.uni, a.nee), (b.uni, b.nee));
@@ -179,9 +185,18 @@ proptest! {
     fn rescaled_weights_equal_plain_products(
         one in events::<1>(), three in events::<3>(), four in events::<4>(),
     ) {
-        equals_plain_products(&one)?;
-        equals_plain_products(&three)?;
-        equals_plain_products(&four)?;
+        equals_plain_products::<PathWeights<1>, 1>(&one)?;
+        equals_plain_products::<PathWeights<3>, 3>(&three)?;
+        equals_plain_products::<PathWeights<4>, 4>(&four)?;
+        the_hero_alone(&four)?;
+    }
+
+    #[test]
+    fn other_books_come_to_the_same(three in events::<3>(), four in events::<4>()) {
+        equals_plain_products::<WeightsApart<f64, 3>, 3>(&three)?;
+        equals_plain_products::<WeightsApart<f64, 4>, 4>(&four)?;
+        equals_plain_products::<WeightsPairwise<3>, 3>(&three)?;
+        equals_plain_products::<WeightsPairwise<4>, 4>(&four)?;
     }
 
     #[test]
@@ -245,5 +260,31 @@ fn a_hundred_thousand_events_stay_finite() {
             let sum: f32 = values[0].0.iter().sum();
             assert!((sum - 4.0).abs() < 0.01, "hero {hero}: the components add up to {sum}");
         }
+    }
+}
+
+/// The report's section 5: forty collisions of a dense medium leave single precision, and only it.
+#[test]
+fn products_apart_overflow_where_quotients_do_not() {
+    let extinction = Sampled([400.0f32, 300.0, 200.0, 100.0]);
+    let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false };
+    let coefficients = Coefficients::new(extinction, Sampled::splat(0.99), &segment);
+    let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted);
+    let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
+    fn fly<W: Weights<4>>(collision: &Collision<4>, turn: &Turn) -> Sampled<4> {
+        let mut path = W::CAMERA;
+        for _ in 0..40 {
+            path.pass(collision.coefficients.majorant * (0.2 / 480.0));
+            path.scatter(collision);
+            path.leave(turn);
+        }
+        path.combined(Sampled::ONE, 1.0, BALANCE)
+    }
+    let single = fly::<WeightsApart<f32, 4>>(&collision, &turn);
+    assert!(single.0.iter().any(|value| !value.is_finite()), "{single:?}");
+    let expected = fly::<WeightsApart<f64, 4>>(&collision, &turn);
+    for value in [fly::<PathWeights<4>>(&collision, &turn), fly::<WeightsPairwise<4>>(&collision, &turn)] {
+        let near = value.zip(expected, |a, b| (a / b - 1.0).abs()).max_component();
+        assert!(near < 1e-4, "{value:?} {expected:?}");
     }
 }

@@ -1,10 +1,10 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Turns, Vertex, Walk, Wanted};
+use super::{Turns, Vertex, Walk, Wanted, Weights};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
-use crate::scene::{Absorption, Heuristics, LightSelection, NearestSurface, Scene, Tracking};
+use crate::scene::{Absorption, Bookkeeping, Heuristics, LightSelection, NearestSurface, Scene, Tracking};
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
 
@@ -15,6 +15,8 @@ pub struct PathSettings {
     pub absorption: Absorption,
     /// How a path is shared among all that could have made it.
     pub heuristics: Heuristics,
+    /// How f and p of a path are kept.
+    pub bookkeeping: Bookkeeping,
     /// How spectral tracking draws events.
     pub tracking: Tracking,
     /// Which light a connection goes to.
@@ -148,7 +150,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Draws the direction that a path leaves a vertex in.
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, weights: &mut super::PathWeights<N>, trace: &mut Trace<'_>) -> Ray {
+    pub fn leave(&self, vertex: &Vertex, weights: &mut impl Weights<N>, trace: &mut Trace<'_>) -> Ray {
         let turn = self.turns().draw(vertex, trace.sampler.direction());
         trace.sampler.start_vertex();
         weights.leave(&turn);
@@ -157,7 +159,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
     /// can still contribute, it is still wanted.
-    pub fn goes_on(&self, vertices: u32, weights: &super::PathWeights<N>, trace: &mut Trace<'_>) -> bool {
+    pub fn goes_on(&self, vertices: u32, weights: &impl Weights<N>, trace: &mut Trace<'_>) -> bool {
         vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
     }
 
@@ -166,7 +168,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     pub fn survives_roulette(
         &self,
         vertices: u32,
-        weights: &mut super::PathWeights<N>,
+        weights: &mut impl Weights<N>,
         trace: &mut Trace<'_>,
     ) -> bool {
         if vertices < self.settings.roulette_depth {

@@ -5,7 +5,8 @@ use egui::{RichText, Ui};
 use majorant_core::estimator::{self, Axis};
 use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
-    Absorption, DirectionSampling, EstimatorDoc, Heuristic, LightSelection, Mode, Tracking,
+    Absorption, Bookkeeping, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, LightSelection, Mode,
+    Tracking,
 };
 use majorant_core::spectrum::WavelengthSampling;
 
@@ -110,6 +111,7 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 segmented(ui, "Techniques", &mut doc.heuristics.techniques, &[BALANCE, POWER, MAXIMUM]);
             });
         });
+        open_ui(ui, doc, Axis::Books, books_ui);
         open_ui(ui, doc, Axis::Tracking, |ui, doc| {
             row(ui, "Tracking", "What spectral tracking draws events by", |ui, _| {
                 let options = [
@@ -128,7 +130,12 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row(ui, "Samples", "How the samples of a pixel relate to each other", |ui, _| {
         let options = [
             (SamplerKind::Independent, "Independent", "Not at all: error bars are exact"),
-            (SamplerKind::Lattice, "Lattice", "Spread evenly over the first decisions of a path: less noise"),
+            (
+                SamplerKind::Lattice,
+                "Lattice",
+                "Spread evenly over the first decisions of a path: least noise",
+            ),
+            (SamplerKind::Sobol, "Sobol", "Owen-scrambled Sobol points for the first decisions of a path"),
         ];
         segmented(ui, "Samples", &mut doc.sampler, &options);
     });
@@ -143,8 +150,31 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         ];
         segmented(ui, "Directions", &mut doc.directions, &options);
     });
-    if doc.sampler == SamplerKind::Lattice {
-        hint(ui, "Error bars overstate the error: samples of a lattice hang together.");
+    if doc.sampler != SamplerKind::Independent {
+        hint(ui, "Error bars overstate the error: samples that are spread evenly hang together.");
+    }
+}
+
+fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Books", "How a path's contribution f and densities p are kept", |ui, _| {
+        let options = [
+            (Bookkeeping::Rescaled, "p/P", "Quotients by the density that made the path: no overflow"),
+            (
+                Bookkeeping::ApartF32,
+                "f32",
+                "f and p apart, as the report prints them: overflow in dense media",
+            ),
+            (Bookkeeping::ApartF64, "f64", "f and p apart in double precision: overflow later"),
+            (Bookkeeping::Pairwise, "p/f", "Miller's quotients of all pairs: the balance heuristic only"),
+        ];
+        segmented(ui, "Books", &mut doc.bookkeeping, &options);
+    });
+    let overflows = doc.bookkeeping == Bookkeeping::ApartF32;
+    let balanced = doc.heuristics == Heuristics::default();
+    if overflows {
+        hint(ui, "Samples that overflow are counted, located and left out: the mean is then wrong.");
+    } else if doc.bookkeeping == Bookkeeping::Pairwise && !balanced {
+        hint(ui, "Of quotients of pairs only the balance heuristic can be formed.");
     }
 }
 

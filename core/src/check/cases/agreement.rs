@@ -7,10 +7,13 @@
 
 use super::super::{Answer, Case, CheckError, Family, fixture};
 use super::ASIDE;
+use crate::estimator::REGISTRY;
 use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
-use crate::scene::{Absorption, DirectionSampling, Heuristic, Heuristics, LightSelection, Mode, Tracking};
+use crate::scene::{
+    Absorption, Bookkeeping, DirectionSampling, Heuristic, Heuristics, LightSelection, Mode, Tracking,
+};
 use crate::spectrum::WavelengthSampling;
 
 pub(super) const FAMILY: Family = Family {
@@ -159,6 +162,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
                 Heuristics { components: Heuristic::Power, techniques: Heuristic::Power };
             d.estimator.tracking = Tracking::Maximum;
             d.estimator.lights = LightSelection::Power;
+            d.estimator.sampler = SamplerKind::Sobol;
         }),
         plume.varied("agreement/plume-maximum", |d| {
             d.estimator.heuristics =
@@ -173,6 +177,12 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.mode = Mode::Rgb;
         }),
+        plume
+            .varied("agreement/plume-apart", |d| d.estimator.bookkeeping = Bookkeeping::ApartF64)
+            .among(&REGISTRY[1..4]),
+        plume
+            .varied("agreement/plume-pairwise", |d| d.estimator.bookkeeping = Bookkeeping::Pairwise)
+            .among(&REGISTRY[1..4]),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
         cloud.varied("agreement/cloud-guided-lattice", |d| {

@@ -23,6 +23,8 @@ pub struct EstimatorDoc {
     pub absorption: Absorption,
     /// How the ways in which a path could have been made share it.
     pub heuristics: Heuristics,
+    /// How Uni+NEE MIS keeps what a path is worth and how likely it is.
+    pub bookkeeping: Bookkeeping,
     /// How spectral tracking draws events.
     pub tracking: Tracking,
     /// Which light a connection goes to.
@@ -48,6 +50,7 @@ impl Default for EstimatorDoc {
             directions: DirectionSampling::Phase,
             absorption: Absorption::Weighted,
             heuristics: Heuristics::default(),
+            bookkeeping: Bookkeeping::Rescaled,
             tracking: Tracking::History,
             lights: LightSelection::Uniform,
             max_depth: None,
@@ -132,6 +135,25 @@ pub enum Heuristic {
     Maximum,
     /// No combination: components other than the hero are left out. Only among components.
     HeroOnly,
+}
+
+/// How the contribution f and the densities p of a path are kept while it grows (the report's section 5). The image is
+/// the same as long as no number leaves its range; the cost is not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bookkeeping {
+    /// As quotients by the density with which the path was made: 3C numbers, any heuristic, no overflow.
+    #[default]
+    Rescaled,
+    /// f and p apart in single precision, as printed in the report: overflows in dense media. What overflows is
+    /// counted and left out, which is **biased**.
+    #[serde(rename = "apart-f32")]
+    ApartF32,
+    /// f and p apart in double precision: overflows later.
+    #[serde(rename = "apart-f64")]
+    ApartF64,
+    /// Miller's quotients p_i / f_j: 2C² numbers, the balance heuristic only, no overflow.
+    Pairwise,
 }
 
 /// How spectral tracking draws the event at a collision (Kutz et al. 2017, section 5.1): in proportion to what

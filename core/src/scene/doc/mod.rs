@@ -19,7 +19,9 @@ pub use camera::{CameraDoc, FilmDoc};
 pub use compare::{
     Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
 };
-pub use estimator::{Absorption, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, Mode, Tracking};
+pub use estimator::{
+    Absorption, Bookkeeping, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, Mode, Tracking,
+};
 pub use light::LightDoc;
 pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
