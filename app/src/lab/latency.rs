@@ -23,6 +23,8 @@ pub struct Recent {
 pub struct Latency {
     /// The newest edit whose picture is still to be seen: its generation, and when it was made.
     waiting: Option<(u64, Instant)>,
+    /// The newest edit.
+    edited: u64,
     visible: VecDeque<f64>,
     cancelled: VecDeque<f64>,
     /// The generation whose cancellation was noted last.
@@ -33,7 +35,8 @@ pub struct Latency {
 impl Latency {
     /// An edit was handed to the session as this generation.
     pub fn edited(&mut self, generation: u64) {
-        if self.waiting.is_none_or(|(known, _)| known != generation) {
+        if generation > self.edited {
+            self.edited = generation;
             self.waiting = Some((generation, Instant::now()));
         }
     }
@@ -108,6 +111,8 @@ mod tests {
         latency.shown(2);
         assert_eq!(latency.first_picture(), None, "an older picture is no answer");
         latency.shown(3);
+        // Frames go on asking; an edit that was answered is not a new one.
+        latency.edited(3);
         latency.shown(3);
         assert_eq!(latency.visible.len(), 1);
         latency.cancelled(3, None);

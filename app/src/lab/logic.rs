@@ -27,7 +27,6 @@ impl LabApp {
             self.stats = slot.stats.clone();
         }
         self.shown = self.wall.hung(Sight::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
-        self.latency.edited(self.state.generation);
         self.latency.cancelled(self.state.generation, self.state.cancelled_seconds);
         if let Some(shown) = &self.shown {
             self.latency.shown(shown.generation);
@@ -259,6 +258,9 @@ impl LabApp {
     pub(super) fn submit_if_needed(&mut self) {
         let (doc, base) = (self.document.doc(), self.document.base());
         let wanted = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
+        if let Some(slot) = self.wall.selected_slot() {
+            self.latency.edited(self.session.state(slot.id).generation);
+        }
         if let Some(path) = wanted {
             let read = self.tasks.read_reference(path);
             if let Err(problem) = read {

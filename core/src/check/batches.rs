@@ -110,6 +110,13 @@ impl Batches {
         self
     }
 
+    /// Paths that a series is made of.
+    #[must_use]
+    pub fn paths_of(&self, series: usize) -> u64 {
+        let blocks = (self.series.len() / 3).max(1) as u64;
+        if series + 1 == self.series.len() { self.paths } else { self.paths / blocks }
+    }
+
     /// Mean over all blocks and channels, with its standard error.
     #[must_use]
     pub fn whole(&self) -> (f64, f64) {

