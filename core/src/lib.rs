@@ -27,6 +27,7 @@ pub mod scene;
 pub mod session;
 pub mod spectrum;
 pub mod surface;
+pub mod transmittance;
 pub mod transport;
 
 #[cfg(test)]
@@ -39,6 +40,7 @@ mod tests {
         &["spectrum"],
         &["phase", "surface", "film"],
         &["medium", "light"],
+        &["transmittance"],
         &["scene", "measure"],
         &["transport"],
         &["estimator"],
