@@ -4,6 +4,7 @@
 //!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench
 //!                                                          ▲                                             ▲
 //!                                         io (scenes, volumes, pictures, results)          measure (errors)
+//!   medium ─► transmittance (of a ray) ─► transport
 //!   film ─► measure (errors of a picture against a reference)
 //! ```
 //!
