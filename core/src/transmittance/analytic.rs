@@ -16,15 +16,15 @@ pub enum Shape {
     Ramp,
     /// exp(−(x − ½)²/(2 s²)), s = 0.1.
     Gaussian,
-    /// ½ (1 + cos(2π · 3.5 x)).
+    /// ½ (1 + cos(2π · 3.3 x)): no symmetry that even steps could profit from.
     Cosine,
-    /// 1, and 0 for 0.4 < x < 0.6.
+    /// 1, and 0 for 0.37 < x < 0.61.
     Hole,
 }
 
 const WIDTH: f64 = 0.1;
-const WAVES: f64 = 3.5;
-const HOLE: [f64; 2] = [0.4, 0.6];
+const WAVES: f64 = 3.3;
+const HOLE: [f64; 2] = [0.37, 0.61];
 
 impl Shape {
     /// Every shape.

@@ -17,7 +17,7 @@ impl Technique for HeroRatioTracking {
                   meant for multiple importance sampling over heroes, which takes exactly that out.",
         cost: "one look-up and one logarithm per collision of the hero, one exponential per piece",
         reference: "Miller, Georgiev and Jarosz 2019, \"A null-scattering path integral formulation of light \
-                    transport\", section 5",
+                    transport\"",
         unbiased: true,
         has_pdf: true,
     };

@@ -43,7 +43,7 @@ impl Technique for PowerSeries {
                   one. Wins under tight majorants, by far where extinction is nearly constant.",
         cost: "about τ̄ + 2.3 √τ̄ look-ups per block, placed by a search among its pieces",
         reference: "Georgiev, Misso, Hachisuka, Nowrouzezahrai, Křivánek and Jarosz 2019, \"Integral formulations of \
-                    volumetric transmittance\", section 4",
+                    volumetric transmittance\"",
         unbiased: true,
         has_pdf: false,
     };

@@ -13,11 +13,11 @@ impl Technique for RatioTracking {
         id: "ratio",
         name: "Ratio tracking",
         formula: "T ≈ Π (μ̄ − μ(tᵢ))/μ̄ over collisions of rate μ̄ = max over components",
-        summary: "Weighs instead of deciding: never more variance than delta tracking under the same majorant. Wins \
+        summary: "Weighs instead of deciding: never more variance than delta tracking under the same majorant, if that bounds. Wins \
                   where majorants are tight to the void around a medium, and thin.",
         cost: "one look-up and one logarithm per collision: ∫μ̄ of them, whatever comes through",
         reference: "Cramer 1978; Novák, Selle and Jarosz 2014, \"Residual ratio tracking for estimating attenuation \
-                    in participating media\", section 4",
+                    in participating media\"",
         unbiased: true,
         // With respect to a walk whose majorant is shared among components.
         has_pdf: true,

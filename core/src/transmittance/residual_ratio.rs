@@ -30,7 +30,7 @@ impl Technique for ResidualRatioTracking {
                   tracking does and gains only what the mean predicts.",
         cost: "one look-up and one logarithm per collision: ∫(μ̄ − μmin) of them; two exponentials per piece",
         reference: "Novák, Selle and Jarosz 2014, \"Residual ratio tracking for estimating attenuation in \
-                    participating media\", section 5",
+                    participating media\"",
         unbiased: true,
         has_pdf: false,
     };
