@@ -4,6 +4,7 @@
 //!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench
 //!                                                          ▲                                             ▲
 //!                                         io (scenes, volumes, pictures, results)          measure (errors)
+//!   medium ─► transmittance (of a ray) ─► transport
 //!   film ─► measure (errors of a picture against a reference)
 //! ```
 //!
@@ -27,6 +28,7 @@ pub mod scene;
 pub mod session;
 pub mod spectrum;
 pub mod surface;
+pub mod transmittance;
 pub mod transport;
 
 #[cfg(test)]
@@ -39,6 +41,7 @@ mod tests {
         &["spectrum"],
         &["phase", "surface", "film"],
         &["medium", "light"],
+        &["transmittance"],
         &["scene", "measure"],
         &["transport"],
         &["estimator"],

@@ -2,7 +2,7 @@
 
 use super::{
     CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment,
-    Medium,
+    Medium, Outlook,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -65,6 +65,11 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
         let [density] = self.density.look_up(point, self.interpolation, 0);
         Coefficients::new(self.extinction * density, self.albedo, majorant)
+    }
+
+    #[inline]
+    fn outlook(&self, point: Vec3) -> Outlook<N> {
+        Outlook::of_mean(self.extinction * self.bounds.mean(self.bounds.cell_at(point)))
     }
 
     #[inline]

@@ -1,6 +1,6 @@
 //! Constant coefficients: σt(λ) and albedo(λ) everywhere in the box.
 
-use super::{Coefficients, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
+use super::{Coefficients, LocalMedium, MajorantPolicy, MajorantSegment, Medium, Outlook};
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
@@ -47,6 +47,10 @@ impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
 
     fn coefficients(&self, _point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N> {
         Coefficients::new(self.extinction, self.albedo, majorant)
+    }
+
+    fn outlook(&self, _point: Vec3) -> Outlook<N> {
+        Outlook::exact(self.extinction)
     }
 
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {

@@ -106,6 +106,14 @@ impl<const C: usize> MajorantGrid<C> {
         self.mean[x + self.cells * (y + self.cells * z)]
     }
 
+    /// The cell that a point of the unit cube lies in.
+    #[must_use]
+    #[inline]
+    pub fn cell_at(&self, unit: Vec3) -> [usize; 3] {
+        // A cast from below zero gives zero.
+        (unit * self.cells as f32).to_array().map(|x| (x as usize).min(self.cells - 1))
+    }
+
     /// Mean over all cells of the bound's largest channel: what a straight line through the box meets.
     #[must_use]
     pub fn mean_bound(&self) -> f32 {

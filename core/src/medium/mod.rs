@@ -15,6 +15,7 @@ mod homogeneous;
 mod majorant;
 mod majorant_grid;
 mod majorants;
+mod outlook;
 mod rgb_grids;
 mod shared_majorant;
 
@@ -26,6 +27,7 @@ pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;
 pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
+pub use outlook::Outlook;
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 pub use shared_majorant::SharedMajorant;
 
@@ -59,6 +61,12 @@ pub trait LocalMedium<const N: usize> {
     /// Absorption, scattering and null coefficient at a point of medium space, with respect to the
     /// majorant of the segment that the point lies in. One density look-up.
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N>;
+
+    /// What is known of the extinction around a point of medium space, without a look-up: nothing, unless a medium
+    /// says otherwise.
+    fn outlook(&self, _point: Vec3) -> Outlook<N> {
+        Outlook::UNKNOWN
+    }
 
     /// Majorants along a ray through the unit cube, as segments in order. What they leave out is empty.
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a>;
