@@ -72,6 +72,7 @@ fn everything() -> SceneDoc {
             bookkeeping: Bookkeeping::ApartF64,
             tracking: Tracking::Average,
             lights: LightSelection::Contribution,
+            transmittance: "power-series".into(),
             max_depth: Some(7),
             roulette_depth: Some(3),
         },

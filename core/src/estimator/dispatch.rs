@@ -6,6 +6,7 @@ use crate::math::{Sampler, SamplerKind};
 use crate::medium::{AnyMedium, Medium, SharedMajorant};
 use crate::scene::{Absorption, DirectionSampling, EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
+use crate::transmittance::TransmittanceKind;
 use crate::transport::{PathSettings, Trace, Wanted, World};
 use glam::{Vec2, Vec3};
 
@@ -24,7 +25,7 @@ pub struct PathIndex {
 pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate;
 
 /// Everything besides the scene that an estimate depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Spectral or RGB.
     pub mode: Mode,
@@ -48,6 +49,8 @@ impl Settings {
             bookkeeping: doc.bookkeeping,
             tracking: doc.tracking,
             lights: doc.lights,
+            transmittance: TransmittanceKind::find(&doc.transmittance)
+                .unwrap_or(TransmittanceKind::ALONG_THE_PATH),
             guided: doc.directions == DirectionSampling::TowardsLights,
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
             roulette_depth: match doc.absorption {

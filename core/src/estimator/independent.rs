@@ -10,7 +10,8 @@
 //! left). Miller, Georgiev and Jarosz 2019, section 5.1.
 
 use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, ONE_TECHNIQUE, RESCALED, clamped_majorant, dispatch,
+    Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, RESCALED,
+    clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -26,6 +27,7 @@ pub(super) const ENTRY: Entry = Entry {
         (Axis::Components, "its paths carry one component"),
         ONE_TECHNIQUE,
         NO_CONNECTIONS,
+        NOTHING_TO_ESTIMATE,
         HERO_DRAWS,
         RESCALED,
     ],

@@ -14,7 +14,10 @@
 //! component. Every vertex walks twice towards light and a third time to its successor.
 //! Horešovský's report, algorithms 1–3, appendix A.
 
-use super::{Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, dispatch};
+use super::{
+    Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, biased_transmittance,
+    clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{DensityDoc, Scene, SceneDoc};
@@ -33,15 +36,20 @@ pub(super) const ENTRY: Entry = Entry {
         (Axis::Techniques, "it combines them per bounce, by the power heuristic"),
         (Axis::Tracking, "delta tracking draws its events"),
     ],
-    bias_of: exceeded_majorant,
+    bias_of,
     kernel: kernel as Kernel,
 };
 
 /// Delta tracking has no weight for collisions that exceed the majorant.
-fn exceeded_majorant(doc: &SceneDoc) -> Option<&'static str> {
+fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
     let uniform = matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none();
-    (doc.medium.majorant.factor < 1.0 && !uniform)
+    if let Some(why) = clamped_majorant(doc) {
+        return Some(why);
+    }
+    let exceeded = doc.medium.majorant.factor < 1.0 && !uniform;
+    exceeded
         .then_some("its delta tracking needs a majorant that bounds")
+        .or_else(|| biased_transmittance(doc))
 }
 
 fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
@@ -90,10 +98,11 @@ impl Estimator for Mitsuba2Volpath {
             }
 
             // A direction drawn towards a light.
-            if let Some(link) = world.sample_emitter(&vertex, trace) {
-                let (p_e, p_p) = (link.light_density, link.turn.density);
-                let weight = link.turn.value * p_e / (p_e * p_e + p_p * p_p);
-                radiance += link.radiance * (phi * link.transmittance * weight);
+            if let Some(aim) = world.aim(&vertex, trace) {
+                let (p_e, p_p) = (aim.density, aim.turn.density);
+                let weight = aim.turn.value * p_e / (p_e * p_e + p_p * p_p);
+                radiance +=
+                    aim.radiance * (phi * world.transmittance(&aim.ray, aim.distance, trace) * weight);
             }
 
             // The direction in which the path goes on.

@@ -15,6 +15,7 @@ use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{self, Bookkeeping, Heuristic, Heuristics, Problem, ReferenceDoc, SceneDoc, WhenExceeded};
 use crate::spectrum::Components;
+use crate::transmittance::TransmittanceKind;
 use crate::transport::{Trace, World};
 
 /// One estimator as people meet it.
@@ -51,11 +52,14 @@ pub enum Axis {
     Tracking,
     /// [`crate::scene::LightSelection`].
     Lights,
+    /// [`TransmittanceKind`] of connections.
+    Transmittance,
 }
 
 const ONE_TECHNIQUE: (Axis, &str) = (Axis::Techniques, "a single technique makes its paths");
 const NO_CONNECTIONS: (Axis, &str) = (Axis::Lights, "it connects to no light");
 const RESCALED: (Axis, &str) = (Axis::Books, "its weights are rescaled; Uni+NEE MIS has the others");
+const NOTHING_TO_ESTIMATE: (Axis, &str) = (Axis::Transmittance, "it connects to no light");
 const HERO_DRAWS: (Axis, &str) = (Axis::Tracking, "its hero draws the events");
 
 impl Entry {
@@ -78,6 +82,13 @@ fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
     let majorant = &doc.medium.majorant;
     let cut = majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp;
     cut.then_some("the majorant is clamped")
+}
+
+/// What biases estimators whose connections may be estimated in any way.
+fn biased_transmittance(doc: &SceneDoc) -> Option<&'static str> {
+    let kind = TransmittanceKind::find(&doc.estimator.transmittance);
+    kind.is_some_and(|kind| !kind.entry().unbiased)
+        .then_some("transmittance is marched by steps of fixed length")
 }
 
 /// Every estimator, in the order that pickers show.
@@ -116,6 +127,15 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
             let why = "techniques cannot go without a heuristic: choose balance, power or maximum";
             problems.push(problem("heuristics.techniques", why));
         }
+        if TransmittanceKind::find(&estimator.transmittance).is_none() {
+            let known: Vec<_> = TransmittanceKind::all().iter().map(|kind| kind.entry().id).collect();
+            let why = format!(
+                "`{}` estimates no transmittance: choose {}",
+                estimator.transmittance,
+                known.join(", ")
+            );
+            problems.push(problem("transmittance", &why));
+        }
         if estimator.bookkeeping == Bookkeeping::Pairwise && estimator.heuristics != Heuristics::default() {
             let why =
                 "of quotients of pairs only the balance heuristic can be formed: choose rescaled, or balance";
@@ -148,6 +168,7 @@ pub trait Estimator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{DensityDoc, GridRef};
 
     #[test]
     fn a_bias_is_named_where_there_is_one_and_nowhere_else() {
@@ -163,6 +184,18 @@ mod tests {
             // A majorant that bounds is never exceeded.
             assert_eq!(entry.bias(&with(1.0, WhenExceeded::Clamp)), None);
             assert_eq!(entry.bias(&with(0.5, WhenExceeded::Weighted)), None);
+            // Delta tracking has no weights to make up for it.
+            let mut grid = with(0.5, WhenExceeded::Weighted);
+            grid.medium.density = DensityDoc::Grid(GridRef { file: "embedded:cloud.vdb".into(), grid: None });
+            assert_eq!(entry.bias(&grid).is_some(), entry.id == "mitsuba2-volpath");
+            let mut marched = SceneDoc::default();
+            marched.estimator.transmittance = "marching".into();
+            assert_eq!(
+                entry.bias(&marched).is_some(),
+                entry.unused(Axis::Transmittance).is_none(),
+                "{}",
+                entry.id
+            );
         }
     }
 

@@ -9,10 +9,14 @@
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 
-use super::{Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, RESCALED, clamped_majorant, dispatch};
+use super::{
+    Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, RESCALED, biased_transmittance, clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
+use crate::scene::SceneDoc;
 use crate::spectrum::{Components, Radiance};
+use crate::transmittance::TransmittanceKind;
 use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -21,9 +25,13 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
     unused: &[ONE_TECHNIQUE, HERO_DRAWS, RESCALED],
-    bias_of: clamped_majorant,
+    bias_of,
     kernel: dispatch::family::<Nee>,
 };
+
+fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
+    clamped_majorant(doc).or_else(|| biased_transmittance(doc))
+}
 
 pub(super) struct Nee;
 
@@ -73,7 +81,12 @@ impl Estimator for Nee {
             if !world.goes_on(vertices, &path, trace) {
                 return radiance;
             }
-            if let Some(link) = world.connect(&vertex, &path, trace) {
+            let link = if world.settings.transmittance == TransmittanceKind::ALONG_THE_PATH {
+                world.connect(&vertex, &path, trace)
+            } else {
+                world.connect_by_estimate(&vertex, &path, trace)
+            };
+            if let Some(link) = link {
                 radiance += link.weights.connected_only(link.radiance, heuristics);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {

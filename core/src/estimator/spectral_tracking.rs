@@ -12,7 +12,9 @@
 //! them then pay for its collisions. Kutz, Habel, Li and Novák 2017, "Spectral and decomposition tracking for rendering
 //! heterogeneous volumes", section 5.1, algorithm 4.
 
-use super::{Axis, Entry, Estimator, NO_CONNECTIONS, ONE_TECHNIQUE, clamped_majorant, dispatch};
+use super::{
+    Axis, Entry, Estimator, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
@@ -28,6 +30,7 @@ pub(super) const ENTRY: Entry = Entry {
         (Axis::Components, "it forms no densities that could be combined"),
         ONE_TECHNIQUE,
         NO_CONNECTIONS,
+        NOTHING_TO_ESTIMATE,
     ],
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralTracking>,

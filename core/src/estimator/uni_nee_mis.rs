@@ -11,7 +11,9 @@
 //! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
 //! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
 
-use super::{Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
+use super::{
+    Axis, Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch,
+};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, Scene};
@@ -26,7 +28,13 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Uni+NEE MIS",
     summary: "Unidirectional and next-event estimation combined, over all components; robust.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
-    unused: &[HERO_DRAWS],
+    unused: &[
+        HERO_DRAWS,
+        (
+            Axis::Transmittance,
+            "MIS needs the density of every null collision, which other estimates do not have",
+        ),
+    ],
     bias_of: clamped_majorant,
     kernel,
 };

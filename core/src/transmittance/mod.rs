@@ -93,6 +93,9 @@ techniques! {
 }
 
 impl TransmittanceKind {
+    /// What a walk along the path itself does, whose densities multiple importance sampling needs.
+    pub const ALONG_THE_PATH: Self = Self::HeroRatioTracking(HeroRatioTracking);
+
     /// The technique with this id, with its default settings.
     #[must_use]
     pub fn find(id: &str) -> Option<Self> {

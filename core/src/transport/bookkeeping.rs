@@ -36,6 +36,9 @@ pub trait Weights<const N: usize>: Copy {
     #[must_use]
     fn connect(&self, turn: &Turn, light_density: f32) -> Self;
 
+    /// A connection's transmittance, estimated by something that has no density.
+    fn attenuate(&mut self, transmittance: Sampled<N>);
+
     /// Continues with probability `q`.
     fn survive(&mut self, q: f32);
 

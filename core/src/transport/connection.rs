@@ -3,11 +3,12 @@
 //! Every collision on the way is taken as null (ratio tracking), so that the connection always
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{Trace, Vertex, Weights, World};
+use super::{Trace, Turn, Vertex, Weights, World};
 use crate::light::Emitter;
-use crate::math::Ray;
+use crate::math::{BoxRay, Ray};
 use crate::medium::LocalMedium;
-use crate::spectrum::Components;
+use crate::spectrum::{Components, Sampled};
+use crate::transmittance::InMedium;
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +19,36 @@ pub struct Connection<R, W> {
     pub radiance: R,
 }
 
+/// A direction drawn towards a light, of which nothing stands in the way but the medium.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim<R> {
+    /// Phase function or cosine lobe, and the density with which the path itself would go there.
+    pub turn: Turn,
+    /// From the vertex.
+    pub ray: Ray,
+    /// To the light.
+    pub distance: f32,
+    /// Density with which it was drawn, the choice of the light included; per steradian.
+    pub density: f32,
+    /// Emitted radiance.
+    pub radiance: R,
+}
+
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
+    /// As [`Self::connect`], but the transmittance is estimated as the settings say. It then has no density of its
+    /// own, so that nothing but heroes can share the path.
+    pub fn connect_by_estimate<W: Weights<N>>(
+        &self,
+        vertex: &Vertex,
+        path: &W,
+        trace: &mut Trace<'_>,
+    ) -> Option<Connection<C::Radiance, W>> {
+        let aim = self.aim(vertex, trace)?;
+        let mut weights = path.connect(&aim.turn, aim.density);
+        weights.attenuate(self.estimate_transmittance(&aim.ray, aim.distance, trace));
+        Some(Connection { weights, radiance: aim.radiance })
+    }
+
     /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
     pub fn connect<W: Weights<N>>(
         &self,
@@ -26,28 +56,48 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         path: &W,
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
-        let (u, which) = trace.sampler.light();
-        let (index, probability) =
-            self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
-        let light = self.scene.lights.get(index)?;
-        let sample = light.sample(vertex.point(), u)?;
-        let turn = self.turns().towards(vertex, sample.direction);
-        if turn.value <= 0.0 {
-            return None;
-        }
-        let ray = Ray { origin: vertex.point(), direction: sample.direction };
-        // Occluders are looked for short of the light itself; the medium reaches all the way.
-        if self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
-            return None;
-        }
-        let mut weights = path.connect(&turn, sample.density * probability);
-        let mut walk = self.walk_to_light(&ray, sample.distance);
+        let aim = self.aim(vertex, trace)?;
+        let mut weights = path.connect(&aim.turn, aim.density);
+        let mut walk = self.walk_to_light(&aim.ray, aim.distance);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
             if weights.is_dark() {
                 return None;
             }
         }
-        Some(Connection { weights, radiance: light.radiance(sample.direction, &self.components) })
+        Some(Connection { weights, radiance: aim.radiance })
+    }
+
+    /// Draws a light and a direction towards it; `None` if it is dark there, or something stands in the way.
+    pub fn aim(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Option<Aim<C::Radiance>> {
+        let (u, which) = trace.sampler.light();
+        let (index, probability) =
+            self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
+        let light = self.scene.lights.get(index)?;
+        let sample = light.sample(vertex.point(), u)?;
+        let turn = self.turns().towards(vertex, sample.direction);
+        let ray = Ray { origin: vertex.point(), direction: sample.direction };
+        // Occluders are looked for short of the light itself; the medium reaches all the way.
+        if turn.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
+            return None;
+        }
+        Some(Aim {
+            turn,
+            ray,
+            distance: sample.distance,
+            density: sample.density * probability,
+            radiance: light.radiance(sample.direction, &self.components),
+        })
+    }
+
+    /// Transmittance along a ray, estimated as the settings say.
+    pub fn estimate_transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
+        let Some((_, inside)) = BoxRay::enter(ray, &self.scene.medium_from_world, t_max) else {
+            return Sampled::ONE;
+        };
+        let profile = InMedium::new(&self.medium, inside);
+        let estimate = self.settings.transmittance.estimate(&profile, &mut trace.sampler);
+        trace.lookups += u64::from(estimate.lookups);
+        estimate.weight
     }
 }

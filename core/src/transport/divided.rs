@@ -1,8 +1,7 @@
 //! What a renderer without path densities offers: flights, connections and transmittance as weights that are
 //! divided by their density already (the report's algorithms 1–3).
 
-use super::{Event, PathWeights, Trace, Turn, Vertex, Weights, World};
-use crate::light::Emitter;
+use super::{Event, PathWeights, Trace, Weights, World};
 use crate::math::{BoxRay, Ray, exp};
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
@@ -15,19 +14,6 @@ pub struct Flight<const N: usize> {
     pub scattered_at: Option<Vec3>,
     /// Transmittance, times μs where it scatters, over the density of it.
     pub weight: Sampled<N>,
-}
-
-/// A direction drawn towards a light.
-#[derive(Clone, Copy, Debug)]
-pub struct EmitterLink<R, const N: usize> {
-    /// Phase function or cosine lobe, and the density with which the path itself would go there.
-    pub turn: Turn,
-    /// Density with which it was drawn, the choice of the light included.
-    pub light_density: f32,
-    /// Transmittance on the way.
-    pub transmittance: Sampled<N>,
-    /// Emitted radiance.
-    pub radiance: R,
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
@@ -66,44 +52,13 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Flight { scattered_at: None, weight: Sampled::ONE }
     }
 
-    /// Transmittance along a ray up to `t_max`: exact where the medium is uniform, by ratio tracking elsewhere.
+    /// Transmittance along a ray up to `t_max`: exact where the medium is uniform, estimated elsewhere, by ratio tracking unless the
+    /// settings say otherwise.
     pub fn transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
         if let Some((extinction, _)) = self.medium.uniform() {
             let inside = BoxRay::enter(ray, &self.scene.medium_from_world, t_max);
             return inside.map_or(Sampled::ONE, |(_, inside)| extinction.map(|e| exp(-e * inside.t_end)));
         }
-        let mut weights = PathWeights::CAMERA;
-        let mut walk = self.walk_to_light(ray, t_max);
-        while let Some(collision) = walk.next_collision(trace, &mut weights) {
-            weights.null_drawn(&collision, collision.coefficients.majorant.hero());
-            if weights.is_dark() {
-                break;
-            }
-        }
-        weights.contribution()
-    }
-
-    /// Draws a direction towards a light and walks there; `None` if nothing arrives.
-    pub fn sample_emitter(
-        &self,
-        vertex: &Vertex,
-        trace: &mut Trace<'_>,
-    ) -> Option<EmitterLink<C::Radiance, N>> {
-        let (u, which) = trace.sampler.light();
-        let (index, probability) =
-            self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
-        let light = self.scene.lights.get(index)?;
-        let sample = light.sample(vertex.point(), u)?;
-        let turn = self.turns().towards(vertex, sample.direction);
-        let ray = Ray { origin: vertex.point(), direction: sample.direction };
-        if turn.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
-            return None;
-        }
-        Some(EmitterLink {
-            turn,
-            light_density: sample.density * probability,
-            transmittance: self.transmittance(&ray, sample.distance, trace),
-            radiance: light.radiance(sample.direction, &self.components),
-        })
+        self.estimate_transmittance(ray, t_max, trace)
     }
 }

@@ -19,8 +19,8 @@ mod weights_pairwise;
 mod world;
 
 pub use bookkeeping::{ApartF32, ApartF64, Books, Pairwise, Rescaled, Weights};
-pub use connection::Connection;
-pub use divided::{EmitterLink, Flight};
+pub use connection::{Aim, Connection};
+pub use divided::Flight;
 pub use event::{Collision, Event};
 pub use event_densities::EventDensities;
 pub use turn::{Turn, Turns};

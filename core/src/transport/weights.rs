@@ -96,6 +96,12 @@ impl<const N: usize> Weights<N> for PathWeights<N> {
     }
 
     #[inline]
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        *self = self.settled();
+        self.contribution *= transmittance;
+    }
+
+    #[inline]
     fn survive(&mut self, q: f32) {
         self.contribution *= 1.0 / q;
     }

@@ -143,6 +143,10 @@ impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
         link
     }
 
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        self.contributes(transmittance);
+    }
+
     fn survive(&mut self, q: f32) {
         multiply(&mut self.f, Sampled::splat(1.0 / q));
     }

@@ -81,6 +81,11 @@ impl<const N: usize> Weights<N> for WeightsPairwise<N> {
         link
     }
 
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        multiply(&mut self.uni, Sampled::ONE, transmittance);
+        multiply(&mut self.nee, Sampled::ONE, transmittance);
+    }
+
     fn survive(&mut self, q: f32) {
         multiply(&mut self.uni, Sampled::splat(q), Sampled::ONE);
         multiply(&mut self.nee, Sampled::splat(q), Sampled::ONE);

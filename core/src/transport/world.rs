@@ -7,9 +7,10 @@ use crate::medium::LocalMedium;
 use crate::scene::{Absorption, Bookkeeping, Heuristics, LightSelection, NearestSurface, Scene, Tracking};
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
+use crate::transmittance::TransmittanceKind;
 
 /// Choices that every path of a render shares.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
@@ -21,6 +22,8 @@ pub struct PathSettings {
     pub tracking: Tracking,
     /// Which light a connection goes to.
     pub lights: LightSelection,
+    /// How the transmittance of a connection is estimated, where no MIS needs its density.
+    pub transmittance: TransmittanceKind,
     /// Whether directions are drawn towards the lights as well as by the phase function.
     pub guided: bool,
     /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.

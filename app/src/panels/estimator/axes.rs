@@ -9,6 +9,7 @@ use majorant_core::scene::{
     Tracking,
 };
 use majorant_core::spectrum::WavelengthSampling;
+use majorant_core::transmittance::TransmittanceKind;
 
 /// All of them.
 pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
@@ -16,6 +17,7 @@ pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     open_ui(ui, doc, Axis::Absorption, absorption_ui);
     sampling_ui(ui, doc);
     open_ui(ui, doc, Axis::Lights, lights_ui);
+    open_ui(ui, doc, Axis::Transmittance, transmittance_ui);
     combination_ui(ui, doc);
     path_length_ui(ui, doc, opened);
 }
@@ -90,6 +92,29 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     });
 }
 
+/// How connections estimate transmittance, from the registry.
+fn transmittance_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    let chosen = TransmittanceKind::find(&doc.transmittance).map(|kind| kind.entry());
+    row(ui, "Transmittance", "How connections estimate transmittance on their way to a light", |ui, _| {
+        let text = chosen.map_or(doc.transmittance.as_str(), |entry| entry.name).to_owned();
+        let combo = egui::ComboBox::from_id_salt("transmittance").width(ui.available_width()).truncate();
+        let combo = combo.selected_text(text).show_ui(ui, |ui| {
+            for kind in TransmittanceKind::all() {
+                let entry = kind.entry();
+                let selected = doc.transmittance == entry.id;
+                let tip = format!("{}\n\n{}\n{}", entry.summary, entry.formula, entry.reference);
+                if ui.selectable_label(selected, entry.name).on_hover_text(tip).clicked() {
+                    entry.id.clone_into(&mut doc.transmittance);
+                }
+            }
+        });
+        combo.response.accessible_name("Transmittance");
+    });
+    if chosen.is_some_and(|entry| !entry.unbiased) {
+        hint(ui, "Biased: the step is never small enough.");
+    }
+}
+
 /// How the ways in which a path could have been made share it.
 fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     const BALANCE: (Heuristic, &str, &str) =
@@ -129,7 +154,7 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row(ui, "Samples", "How the samples of a pixel relate to each other", |ui, _| {
         let options = [
-            (SamplerKind::Independent, "Independent", "Not at all: error bars are exact"),
+            (SamplerKind::Independent, "Random", "Not at all: error bars are exact"),
             (
                 SamplerKind::Lattice,
                 "Lattice",

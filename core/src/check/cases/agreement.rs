@@ -7,7 +7,7 @@
 
 use super::super::{Answer, Case, CheckError, Family, fixture};
 use super::ASIDE;
-use crate::estimator::REGISTRY;
+use crate::estimator::{Entry, REGISTRY};
 use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
@@ -15,6 +15,7 @@ use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, Heuristic, Heuristics, LightSelection, Mode, Tracking,
 };
 use crate::spectrum::WavelengthSampling;
+use std::sync::LazyLock;
 
 pub(super) const FAMILY: Family = Family {
     id: "agreement",
@@ -140,6 +141,12 @@ fn files() -> Library {
     }
 }
 
+/// Estimators whose connections may estimate transmittance in any way, and one to hold them against.
+static CONNECTED: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+    let wanted = ["nee", "mitsuba2-volpath", "uni-nee-mis"];
+    REGISTRY.iter().filter(|entry| wanted.contains(&entry.id)).copied().collect()
+});
+
 fn cases() -> Result<Vec<Case>, CheckError> {
     let scene = |name: &str, toml: &str| {
         Ok::<_, CheckError>(Case::new(format!("agreement/{name}"), toml, Answer::Agreement)?.in_blocks(2, 2))
@@ -177,6 +184,20 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.mode = Mode::Rgb;
         }),
+        plume
+            .varied("agreement/plume-residual-ratio", |d| d.estimator.transmittance = "residual-ratio".into())
+            .among(&CONNECTED),
+        plume
+            .varied("agreement/plume-power-series", |d| d.estimator.transmittance = "power-series".into())
+            .among(&CONNECTED),
+        cloud
+            .varied("agreement/cloud-unbiased-marching", |d| {
+                d.estimator.transmittance = "unbiased-marching".into();
+            })
+            .among(&CONNECTED),
+        cloud
+            .varied("agreement/cloud-delta", |d| d.estimator.transmittance = "delta".into())
+            .among(&CONNECTED),
         plume
             .varied("agreement/plume-apart", |d| d.estimator.bookkeeping = Bookkeeping::ApartF64)
             .among(&REGISTRY[1..4]),

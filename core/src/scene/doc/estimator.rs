@@ -29,6 +29,9 @@ pub struct EstimatorDoc {
     pub tracking: Tracking,
     /// Which light a connection goes to.
     pub lights: LightSelection,
+    /// How the transmittance of a connection is estimated, where no MIS needs its density: an id of
+    /// [`crate::transmittance::TransmittanceKind`].
+    pub transmittance: String,
     /// Most segments of a path between camera, scattering vertices and light: 1 is emission only, 2 is
     /// single scattering. Absent: unlimited.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -53,6 +56,7 @@ impl Default for EstimatorDoc {
             bookkeeping: Bookkeeping::Rescaled,
             tracking: Tracking::History,
             lights: LightSelection::Uniform,
+            transmittance: "ratio-hero".into(),
             max_depth: None,
             roulette_depth: Some(16),
         }
