@@ -7,9 +7,9 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Arrangement, Bookkeeping, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
-    EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic, Heuristics, Layer, LightDoc, LightSelection,
-    MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc,
-    RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
+    EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic, Heuristics, Layer, LightDoc,
+    LightSelection, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc,
+    ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -53,6 +53,11 @@ fn everything() -> SceneDoc {
                 when_exceeded: WhenExceeded::Clamp,
                 resolution: Some(24),
             },
+            emission: Some(EmissionDoc {
+                temperature: Some(GridRef { file: "hot.vdb".into(), grid: None }),
+                kelvin: 1.5,
+                scale: 2.0,
+            }),
             phase: PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.2, forward: 0.6 },
         },
         lights: LightDoc::templates()

@@ -52,6 +52,9 @@ impl Estimator for Independent {
             let mut walk = world.walk(&ray, surface.t());
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                if let Some(glow) = world.emission_at(&collision, trace) {
+                    radiance += path.hero_emitted(glow, &collision);
+                }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
                     Event::Absorption => return radiance,

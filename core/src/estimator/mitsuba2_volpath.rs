@@ -46,6 +46,9 @@ fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
     if let Some(why) = clamped_majorant(doc) {
         return Some(why);
     }
+    if doc.medium.emission.is_some() {
+        return Some("it knows no light from within the medium");
+    }
     let exceeded = doc.medium.majorant.factor < 1.0 && !uniform;
     exceeded
         .then_some("its delta tracking needs a majorant that bounds")

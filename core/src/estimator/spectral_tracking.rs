@@ -55,6 +55,9 @@ impl Estimator for SpectralTracking {
             let mut walk = world.walk(&ray, surface.t());
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                if let Some(glow) = world.emission_at(&collision, trace) {
+                    radiance += path.emitted_as_drawn(glow, &collision);
+                }
                 let densities = EventDensities::of(&collision, &path.contribution(), &world.settings);
                 let u = trace.sampler.event() * densities.total();
                 if u < densities.null {

@@ -68,6 +68,9 @@ impl<B: Books> Estimator for UniNeeMis<B> {
             let mut walk = world.walk(&ray, surface.t());
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                if let Some(glow) = world.emission_at(&collision, trace) {
+                    radiance += path.emitted(glow, &collision, heuristics);
+                }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
                     Event::Absorption => return radiance,

@@ -10,6 +10,7 @@
 mod cell_walk;
 mod coefficients;
 mod density_grid;
+mod emission;
 mod grid;
 mod homogeneous;
 mod majorant;
@@ -22,6 +23,7 @@ mod shared_majorant;
 pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
+pub use emission::Emission;
 pub use grid::{BRICK_EDGE, Grid, Interpolation, Lattice, Packing, Precision};
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};

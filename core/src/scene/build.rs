@@ -1,16 +1,16 @@
 //! Freezes a document into a scene.
 
 use super::{
-    Camera, DensityDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc, SceneError,
-    SceneInfo, WhenExceeded, placement, validate,
+    Camera, DensityDoc, EmissionDoc, GridRef, LightDoc, MediumDoc, ObjectDoc, Problem, Scene, SceneDoc,
+    SceneError, SceneInfo, WhenExceeded, placement, validate,
 };
 use crate::light::{
     Environment, EnvironmentMap, Light, LightChoice, LightKind, LightLobes, Panorama, RectangleLight,
     SphereLight, Sun,
 };
 use crate::medium::{
-    AlbedoField, AnyMedium, DensityGrid, ExtinctionField, Grid, Homogeneous, MajorantGrid, MajorantPolicy,
-    Majorants, Precision, RgbGrids,
+    AlbedoField, AnyMedium, DensityGrid, Emission, ExtinctionField, Grid, Homogeneous, MajorantGrid,
+    MajorantPolicy, Majorants, Precision, RgbGrids,
 };
 use crate::phase::Phase;
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
@@ -69,7 +69,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         return Err(SceneError::Invalid(problem));
     }
     let mut notices = Vec::new();
-    let (medium, object_from_unit, mut info) = build_medium(&doc.medium, resources, &mut notices)?;
+    let (medium, emission, object_from_unit, mut info) = build_medium(&doc.medium, resources, &mut notices)?;
     let world_from_unit = placement::world_from_unit(&doc.medium.placement, object_from_unit);
     // Relative to its edges: a tiny box is as good as a large one, a flat one is not.
     let m = world_from_unit.matrix3;
@@ -98,7 +98,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         lights.push(Light { kind: built, visible: light.visible() });
     }
     surfaces.extend(doc.objects.iter().map(build_object));
-    if lights.is_empty() {
+    if lights.is_empty() && emission.is_none() {
         notices.push("No light: the image is black. Add a light.".into());
     }
 
@@ -115,6 +115,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         width: doc.film.width,
         height: doc.film.height,
         medium,
+        emission,
         medium_from_world: world_from_unit.inverse(),
         phase: Phase::new(&doc.medium.phase),
         surfaces,
@@ -156,7 +157,7 @@ fn build_medium(
     doc: &MediumDoc,
     resources: &mut dyn Resources,
     notices: &mut Vec<String>,
-) -> Result<(AnyMedium, Affine3A, SceneInfo), SceneError> {
+) -> Result<(AnyMedium, Option<Emission>, Affine3A, SceneInfo), SceneError> {
     let at = |path: &str| {
         let path = path.to_owned();
         move |source| SceneError::Resource { path, source }
@@ -211,6 +212,13 @@ fn build_medium(
             AlbedoField::Rgb(read.grid, albedo_from_density)
         }
     };
+    let emission = match &doc.emission {
+        None => None,
+        Some(emission) => Some(
+            build_emission(emission, density_box, resources, &mut info, notices)
+                .map_err(at("medium.emission"))?,
+        ),
+    };
     info.majorant = doc.majorant.factor
         * match &extinction {
             ExtinctionField::Uniform(sigma) => sigma.largest(),
@@ -243,7 +251,33 @@ fn build_medium(
             AnyMedium::RgbGrids(RgbGrids::new(extinction, albedo, doc.interpolation, majorant))
         }
     };
-    Ok((medium, placed, info))
+    Ok((medium, emission, placed, info))
+}
+
+/// The temperature is laid over the density where both files say where they stand, and fills the same box otherwise.
+fn build_emission(
+    doc: &EmissionDoc,
+    density_box: Option<Affine3A>,
+    resources: &mut dyn Resources,
+    info: &mut SceneInfo,
+    notices: &mut Vec<String>,
+) -> Result<Emission, ResourceError> {
+    let mut emission = Emission {
+        temperature: None,
+        temperature_from_medium: Affine3A::IDENTITY,
+        kelvin: doc.kelvin,
+        scale: doc.scale,
+    };
+    if let Some(grid) = &doc.temperature {
+        let read = resources.scalar_grid(grid, Precision::F32)?;
+        info.memory_bytes += read.grid.bytes();
+        notices.extend(read.notices);
+        if let Some(density) = density_box.filter(|_| read.says_where) {
+            emission.temperature_from_medium = read.object_from_unit.inverse() * density;
+        }
+        emission.temperature = Some(read.grid);
+    }
+    Ok(emission)
 }
 
 /// The majorant cells that a document asks for, or the cheapest ones for a grid whose values stand for

@@ -3,7 +3,7 @@
 use super::Camera;
 use crate::light::{Light, LightChoice, LightLobes};
 use crate::math::Ray;
-use crate::medium::AnyMedium;
+use crate::medium::{AnyMedium, Emission};
 use crate::phase::Phase;
 use crate::surface::{Role, Surface, SurfaceHit};
 use glam::{Affine3A, Vec3};
@@ -19,6 +19,8 @@ pub struct Scene {
     pub height: u32,
     /// The medium, in the unit cube of its own space.
     pub medium: AnyMedium,
+    /// How it glows, if it does.
+    pub emission: Option<Emission>,
     /// Takes points of the world into the medium's unit cube.
     pub medium_from_world: Affine3A,
     /// The medium's phase function.

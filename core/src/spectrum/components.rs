@@ -27,6 +27,9 @@ pub trait Components<const N: usize>: Copy + Send + Sync {
     /// Radiance that is given as linear sRGB, at the components.
     fn radiance_of_rgb(&self, rgb: Vec3) -> Self::Radiance;
 
+    /// Radiance of a black body of so many kelvins, at the components.
+    fn blackbody(&self, kelvin: f32) -> Self::Radiance;
+
     /// The linear sRGB estimate that radiance at the components amounts to.
     fn to_film(&self, radiance: Self::Radiance) -> Vec3;
 }

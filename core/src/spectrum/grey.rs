@@ -4,7 +4,7 @@
 //! The path then carries one component, and what it gathers is each light's own colour on the film:
 //! ∫ response(λ) Le(λ) dλ in closed form. No noise in colour is left.
 
-use super::{Components, Radiance, Sampled, Spectrum, WavelengthSampling, observer};
+use super::{Components, Radiance, Sampled, Spectrum, WavelengthSampling, blackbody, observer};
 use glam::Vec3;
 use std::ops::{AddAssign, Mul};
 
@@ -54,6 +54,10 @@ impl<const SPECTRAL: bool> Components<1> for Grey<SPECTRAL> {
 
     fn radiance_of_rgb(&self, rgb: Vec3) -> FilmColour {
         FilmColour(if SPECTRAL { observer::film_colour_of_rgb(rgb) } else { rgb })
+    }
+
+    fn blackbody(&self, kelvin: f32) -> FilmColour {
+        FilmColour(if SPECTRAL { blackbody::film_colour(kelvin) } else { blackbody::rgb(kelvin) })
     }
 
     fn to_film(&self, radiance: FilmColour) -> Vec3 {

@@ -4,6 +4,7 @@
 //! RGB mode the three channels, in independent tracking only one of either. Everything downstream is
 //! generic over [`Components`], so both modes are the same code.
 
+mod blackbody;
 mod components;
 mod doc;
 mod grey;
@@ -14,6 +15,7 @@ mod sampled;
 mod shape;
 mod wavelengths;
 
+pub use blackbody::HOTTEST_K;
 pub use components::{Components, Radiance};
 pub use doc::{ControlPoint, Outside, SpectrumDoc};
 pub use grey::{FilmColour, Grey};

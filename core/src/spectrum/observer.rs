@@ -134,6 +134,12 @@ pub(super) fn film_colour_of_rgb(rgb: Vec3) -> Vec3 {
     *FILM_FROM_RGB * rgb
 }
 
+/// Means of a spectrum under the positive part of the response of each channel: the components of RGB mode.
+pub(super) fn band_means(f: impl Fn(f32) -> f32) -> Vec3 {
+    let weight = |lambda| response(lambda).max(Vec3::ZERO);
+    integrate(|l| weight(l) * f(l)) / integrate(weight)
+}
+
 /// ∫ f(λ) dλ over the rendered range by the midpoint rule at 1 nm.
 pub(super) fn integrate(f: impl Fn(f32) -> Vec3) -> Vec3 {
     let mut sum = Vec3::ZERO;

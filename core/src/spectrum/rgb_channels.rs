@@ -1,6 +1,6 @@
 //! RGB mode: components are the film's channels.
 
-use super::{Components, Sampled, Spectrum, WavelengthSampling};
+use super::{Components, Sampled, Spectrum, WavelengthSampling, blackbody};
 use glam::Vec3;
 
 /// Colour channels: the hero uniform over red, green and blue, the others in rotation.
@@ -32,6 +32,10 @@ impl<const N: usize> Components<N> for RgbChannels<N> {
 
     fn radiance_of_rgb(&self, rgb: Vec3) -> Sampled<N> {
         self.upsample(rgb)
+    }
+
+    fn blackbody(&self, kelvin: f32) -> Sampled<N> {
+        self.upsample(blackbody::rgb(kelvin))
     }
 
     fn to_film(&self, radiance: Sampled<N>) -> Vec3 {

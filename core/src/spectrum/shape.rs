@@ -54,7 +54,7 @@ impl Spectrum {
         let rgb = match &shape {
             Shape::Constant(value) => Vec3::splat(*value),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb,
-            Shape::Points { .. } => band_means(&shape),
+            Shape::Points { .. } => observer::band_means(|lambda| shape.at(lambda)),
         };
         let film = shape.film_colour();
         Self { shape, rgb, film }
@@ -184,11 +184,6 @@ fn interpolate(points: &[ControlPoint], outside: Outside, lambda_nm: f32) -> f32
         (Some(end), None) | (None, Some(end)) => beyond(end),
         (None, None) => 0.0,
     }
-}
-
-fn band_means(shape: &Shape) -> Vec3 {
-    let weight = |lambda| observer::response(lambda).max(Vec3::ZERO);
-    observer::integrate(|l| weight(l) * shape.at(l)) / observer::integrate(weight)
 }
 
 impl SpectrumDoc {

@@ -1,6 +1,8 @@
 //! Spectral mode: components are wavelengths.
 
-use super::{Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, Sampled, Spectrum, observer};
+use super::{
+    Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, Sampled, Spectrum, blackbody, observer,
+};
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
@@ -58,6 +60,10 @@ impl<const N: usize> Components<N> for Wavelengths<N> {
 
     fn radiance_of_rgb(&self, rgb: Vec3) -> Sampled<N> {
         Sampled(self.lambda_nm.map(|lambda| observer::basis(lambda).dot(rgb) * observer::daylight(lambda)))
+    }
+
+    fn blackbody(&self, kelvin: f32) -> Sampled<N> {
+        Sampled(self.lambda_nm.map(|lambda| blackbody::planck(lambda, kelvin)))
     }
 
     /// Mean over the set of response · radiance / density.

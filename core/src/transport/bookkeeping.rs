@@ -36,6 +36,10 @@ pub trait Weights<const N: usize>: Copy {
     #[must_use]
     fn connect(&self, turn: &Turn, light_density: f32) -> Self;
 
+    /// The value of a path that ends at a collision, where the medium emits: every tentative collision is such an
+    /// end, so that its density is p_uni,i μ̄_i, and by the balance heuristic f_j μa_j / mean (p_uni,i μ̄_i).
+    fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R;
+
     /// A connection's transmittance, estimated by something that has no density.
     fn attenuate(&mut self, transmittance: Sampled<N>);
 

@@ -95,6 +95,13 @@ impl<const N: usize> Weights<N> for PathWeights<N> {
         }
     }
 
+    fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
+        let scale = 1.0 / c.coefficients.majorant.hero();
+        let mut now = self.settled();
+        now.contribution *= c.coefficients.absorption * scale;
+        radiance * now.among_heroes(now.uni * (c.coefficients.majorant * scale), 1.0, heuristics.components)
+    }
+
     #[inline]
     fn attenuate(&mut self, transmittance: Sampled<N>) {
         *self = self.settled();
@@ -188,6 +195,19 @@ impl<const N: usize> PathWeights<N> {
     #[must_use]
     pub fn hero_only<R: Radiance<N>>(&self, radiance: R) -> R {
         radiance * self.hero(1.0)
+    }
+
+    /// [`Self::hero_only`] of a path that ends at a collision, where the medium emits.
+    #[must_use]
+    pub fn hero_emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
+        radiance * self.hero(c.coefficients.absorption.hero() / c.coefficients.majorant.hero())
+    }
+
+    /// [`Self::as_drawn`] of a path that ends at a collision, where the medium emits.
+    #[must_use]
+    pub fn emitted_as_drawn<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
+        let drawn = c.coefficients.absorption * (1.0 / c.coefficients.majorant.hero());
+        radiance * (self.settled().contribution * drawn)
     }
 
     /// The path's value if nothing else could have made it: f_j / P.

@@ -143,6 +143,13 @@ impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
         link
     }
 
+    fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
+        let mut end = *self;
+        end.contributes(c.coefficients.absorption);
+        multiply(&mut end.uni, c.coefficients.majorant);
+        radiance * end.among_heroes(end.uni, 1.0, heuristics.components)
+    }
+
     fn attenuate(&mut self, transmittance: Sampled<N>) {
         self.contributes(transmittance);
     }

@@ -81,6 +81,12 @@ impl<const N: usize> Weights<N> for WeightsPairwise<N> {
         link
     }
 
+    fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, _: Heuristics) -> R {
+        let mut end = self.uni;
+        multiply(&mut end, c.coefficients.majorant, c.coefficients.absorption);
+        radiance * inverse_mean(end)
+    }
+
     fn attenuate(&mut self, transmittance: Sampled<N>) {
         multiply(&mut self.uni, Sampled::ONE, transmittance);
         multiply(&mut self.nee, Sampled::ONE, transmittance);

@@ -1,6 +1,6 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Turns, Vertex, Walk, Wanted, Weights};
+use super::{Collision, Turns, Vertex, Walk, Wanted, Weights};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
@@ -99,6 +99,17 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     #[inline(always)]
     pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
         Walk::along(&self.medium, self.scene, ray, t_max, self.settings.absorption, false)
+    }
+
+    /// Radiance that the medium emits at a collision, to be weighted with what the path is worth there; black if it is
+    /// cold.
+    #[must_use]
+    #[inline]
+    pub fn emission_at(&self, collision: &Collision<N>, trace: &mut Trace<'_>) -> Option<C::Radiance> {
+        let emission = self.scene.emission.as_ref()?;
+        trace.lookups += 1;
+        let kelvin = emission.kelvin_at(self.scene.medium_from_world.transform_point3(collision.point));
+        (kelvin > 0.0).then(|| self.components.blackbody(kelvin) * Sampled::splat(emission.scale))
     }
 
     /// The surface that a ray meets first. Rays from the camera pass through hidden lights.

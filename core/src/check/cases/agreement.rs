@@ -12,7 +12,8 @@ use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
 use crate::scene::{
-    Absorption, Bookkeeping, DirectionSampling, Heuristic, Heuristics, LightSelection, Mode, Tracking,
+    Absorption, Bookkeeping, DirectionSampling, EmissionDoc, GridRef, Heuristic, Heuristics, LightSelection,
+    Mode, Tracking,
 };
 use crate::spectrum::WavelengthSampling;
 use std::sync::LazyLock;
@@ -183,6 +184,11 @@ fn cases() -> Result<Vec<Case>, CheckError> {
                 Heuristics { components: Heuristic::HeroOnly, techniques: Heuristic::Power };
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.mode = Mode::Rgb;
+        }),
+        plume.varied("agreement/plume-glowing", |d| {
+            let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
+            d.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+            d.estimator.heuristics.components = Heuristic::Power;
         }),
         plume
             .varied("agreement/plume-residual-ratio", |d| d.estimator.transmittance = "residual-ratio".into())

@@ -10,6 +10,7 @@ mod interpolation;
 mod lights;
 mod oracle;
 mod single_scattering;
+mod thermal;
 
 use super::{Case, CheckError, Family};
 use rayon::prelude::*;
@@ -21,6 +22,7 @@ pub static FAMILIES: &[Family] = &[
     interpolation::FAMILY,
     emission::FAMILY,
     single_scattering::FAMILY,
+    thermal::FAMILY,
     lights::FAMILY,
     half_space::FAMILY,
     agreement::FAMILY,

@@ -32,6 +32,9 @@ pub struct MediumDoc {
     pub majorant: MajorantDoc,
     /// Which way light scatters.
     pub phase: PhaseDoc,
+    /// How it glows. Absent: not at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emission: Option<EmissionDoc>,
 }
 
 impl Default for MediumDoc {
@@ -47,7 +50,27 @@ impl Default for MediumDoc {
             placement: PlacementDoc::default(),
             majorant: MajorantDoc::default(),
             phase: PhaseDoc::default(),
+            emission: None,
         }
+    }
+}
+
+/// Thermal emission: what absorbs also emits, as a black body does at its temperature.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EmissionDoc {
+    /// Temperature by place; in OpenVDB files usually the grid `temperature`. Absent: the same everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<GridRef>,
+    /// Kelvins of a temperature of 1.
+    pub kelvin: f32,
+    /// Multiplies the radiance, which is 1 for 3000 K at 560 nm.
+    pub scale: f32,
+}
+
+impl Default for EmissionDoc {
+    fn default() -> Self {
+        Self { temperature: None, kelvin: 3000.0, scale: 1.0 }
     }
 }
 

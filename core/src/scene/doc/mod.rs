@@ -23,7 +23,7 @@ pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, Mode, Tracking,
 };
 pub use light::LightDoc;
-pub use medium::{DensityDoc, GridRef, MediumDoc, PlacementDoc};
+pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;
 pub use render::{Limits, RenderDoc};
 
@@ -105,6 +105,10 @@ impl SceneDoc {
             files.push(&mut grid.file);
         }
         if let Some(grid) = &mut self.medium.albedo_grid {
+            files.push(&mut grid.file);
+        }
+        let emission = self.medium.emission.as_mut();
+        if let Some(grid) = emission.and_then(|e| e.temperature.as_mut()) {
             files.push(&mut grid.file);
         }
         for light in &mut self.lights {

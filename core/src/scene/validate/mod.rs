@@ -189,6 +189,15 @@ fn medium(c: &mut Checker, doc: &MediumDoc) {
             format!("is {cells}; there are 1 to {MAX_MAJORANT_CELLS} cells per axis"),
         );
     }
+    if let Some(emission) = &doc.emission {
+        let hottest = crate::spectrum::HOTTEST_K;
+        c.check(
+            emission.kelvin > 0.0 && emission.kelvin <= 1e9,
+            "medium.emission.kelvin",
+            format!("is {}; it must be positive. Bodies above {hottest} K shine as that", emission.kelvin),
+        );
+        c.range("medium.emission.scale", emission.scale, 0.0, 1e9);
+    }
     match doc.phase {
         PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
         PhaseDoc::HenyeyGreenstein { g } => c.range("medium.phase.g", g, -0.999, 0.999),
