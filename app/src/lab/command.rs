@@ -15,6 +15,8 @@ pub enum Purpose {
     OpenVolume,
     /// The density file of the medium as it is placed.
     DensityFile,
+    /// The temperature file of the medium's emission.
+    TemperatureFile,
     /// The picture of the environment map with this index.
     EnvironmentMap(usize),
     /// Where to save the scene.

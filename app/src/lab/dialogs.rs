@@ -28,7 +28,9 @@ impl PathPrompt {
     fn words(&self) -> (&'static str, &'static str, &'static str) {
         match self.purpose {
             Purpose::OpenScene => ("Open scene", "Open", "path/to/scene.toml"),
-            Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Open", "path/to/volume.vdb"),
+            Purpose::OpenVolume | Purpose::DensityFile | Purpose::TemperatureFile => {
+                ("Open volume", "Open", "path/to/volume.vdb")
+            }
             Purpose::EnvironmentMap(_) => ("Open environment map", "Open", "path/to/sky.exr"),
             Purpose::Reference => ("Open reference", "Open", "path/to/reference.exr"),
             Purpose::ExportReport => ("Export comparison", "Export", "path/to/folder"),
@@ -43,6 +45,7 @@ impl PathPrompt {
             Purpose::OpenScene => "A scene file. Relative paths start where the program was started.",
             Purpose::OpenVolume => "It becomes the medium's density, fitted to length 1 around the origin.",
             Purpose::DensityFile => "It replaces the density; the placement stays.",
+            Purpose::TemperatureFile => "It is laid over the density, if both files say where they stand.",
             Purpose::EnvironmentMap(_) => "An equirectangular picture, linear sRGB.",
             Purpose::Reference => "An EXR of this scene; standard errors are used if it holds them.",
             Purpose::ExportReport => {

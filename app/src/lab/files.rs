@@ -98,6 +98,14 @@ impl LabApp {
                 }
                 self.document.edit(doc);
             }
+            Purpose::TemperatureFile => {
+                let file = self.short_name(&path);
+                let mut doc = self.doc().clone();
+                if let Some(emission) = &mut doc.medium.emission {
+                    emission.temperature = Some(GridRef { file, grid: None });
+                }
+                self.document.edit(doc);
+            }
             Purpose::EnvironmentMap(index) => {
                 let name = self.short_name(&path);
                 let mut doc = self.doc().clone();

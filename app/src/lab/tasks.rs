@@ -150,7 +150,9 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
     let dialog = rfd::FileDialog::new().set_directory(directory);
     let (title, filter, extensions, default): (_, _, &[&str], _) = match purpose {
         Purpose::OpenScene => ("Open scene", "Scenes", &["toml"], ""),
-        Purpose::OpenVolume | Purpose::DensityFile => ("Open volume", "Volumes", volume::EXTENSIONS, ""),
+        Purpose::OpenVolume | Purpose::DensityFile | Purpose::TemperatureFile => {
+            ("Open volume", "Volumes", volume::EXTENSIONS, "")
+        }
         Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),

@@ -119,16 +119,24 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     });
     let Cx { draft, grids, commands, .. } = cx;
     if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut draft.medium.density {
-        grid_ui(ui, grid, grids, commands);
+        grid_ui(ui, "density", grid, grids, commands, Purpose::DensityFile);
     } else {
         hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to fill the box with it.");
     }
 }
 
-fn grid_ui(ui: &mut Ui, grid: &mut GridRef, lists: &GridLists, commands: &mut Vec<Command>) {
+/// A grid in a file, for what `name` says; `purpose` is what a chosen file is for.
+pub(super) fn grid_ui(
+    ui: &mut Ui,
+    name: &str,
+    grid: &mut GridRef,
+    lists: &GridLists,
+    commands: &mut Vec<Command>,
+    purpose: Purpose,
+) {
     let tip = "OpenVDB, .npy or Mitsuba .vol; relative to the scene file";
-    if path_field(ui, "File", "density file", "cloud.vdb", &mut grid.file, tip) {
-        commands.push(Command::Ask(Purpose::DensityFile));
+    if path_field(ui, "File", &format!("{name} file"), "cloud.vdb", &mut grid.file, tip) {
+        commands.push(Command::Ask(purpose));
     }
     if grid.file.is_empty() {
         hint(ui, "Choose a file, or drop one into the window.");
@@ -142,7 +150,7 @@ fn grid_ui(ui: &mut Ui, grid: &mut GridRef, lists: &GridLists, commands: &mut Ve
     };
     row(ui, "Grid", "Which of the file's grids is used", |ui, label| {
         let shown = grid.grid.clone().unwrap_or_else(|| "by default".into());
-        let combo = ComboBox::from_id_salt("grid").selected_text(shown).width(ui.available_width());
+        let combo = ComboBox::from_id_salt((name, "grid")).selected_text(shown).width(ui.available_width());
         let response = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut grid.grid, None, "by default");
             for name in names {

@@ -7,6 +7,7 @@ mod albedo;
 mod camera;
 mod density;
 mod display;
+mod emission;
 mod estimator;
 mod extinction;
 mod light_fields;
@@ -82,6 +83,7 @@ pub const PANELS: &[&dyn Panel] = &[
     &density::Density,
     &extinction::Extinction,
     &albedo::Albedo,
+    &emission::Emission,
     &phase::PhaseFunction,
     &lights::Lights,
     &objects::Objects,

@@ -34,6 +34,7 @@ pub static SCENES: &[EmbeddedScene] = scenes![
     "cloud-backlit",
     "cloud-sidelit",
     "homogeneous-absorption",
+    "fire",
     "furnace",
 ];
 

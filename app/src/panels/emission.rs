@@ -1,0 +1,88 @@
+//! Emission: how hot the medium is, and how it glows.
+
+use super::{Column, Cx, Panel, density};
+use crate::lab::Purpose;
+use crate::widgets::{Value, format_number, hint, row, segmented, switch};
+use egui::Ui;
+use majorant_core::scene::{DensityDoc, EmissionDoc, GridRef};
+
+/// See the [module](self).
+pub struct Emission;
+
+impl Panel for Emission {
+    fn id(&self) -> &'static str {
+        "emission"
+    }
+    fn title(&self) -> &'static str {
+        "Emission"
+    }
+    fn column(&self) -> Column {
+        Column::Scene
+    }
+    fn summary(&self, cx: &Cx<'_>) -> String {
+        match &cx.draft.medium.emission {
+            None => "none".into(),
+            Some(EmissionDoc { temperature: None, kelvin, .. }) => {
+                format!("{} K", format_number(f64::from(*kelvin)))
+            }
+            Some(EmissionDoc { temperature: Some(grid), .. }) => {
+                grid.grid.clone().unwrap_or_else(|| grid.file.clone())
+            }
+        }
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let Cx { draft, opened, grids, commands, .. } = cx;
+        let mut glows = draft.medium.emission.is_some();
+        switch(
+            ui,
+            "Glows",
+            "Medium glows",
+            &mut glows,
+            "as a black body",
+            "What absorbs emits, by its temperature",
+        );
+        if !glows {
+            draft.medium.emission = None;
+            return;
+        }
+        let initial = opened.medium.emission.clone().unwrap_or_default();
+        let density = draft.medium.density.clone();
+        let emission = draft.medium.emission.get_or_insert_with(|| initial.clone());
+        let mut by_grid = emission.temperature.is_some();
+        row(ui, "Temperature", "Where it comes from", |ui, _| {
+            let options = [
+                (false, "Uniform", "The same everywhere in the box"),
+                (true, "Grid", "A scalar grid, laid over the density"),
+            ];
+            segmented(ui, "Temperature", &mut by_grid, &options);
+        });
+        if by_grid {
+            // The file of the density usually has one.
+            let grid = emission.temperature.get_or_insert_with(|| match &density {
+                DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) => {
+                    GridRef { file: grid.file.clone(), grid: Some("temperature".into()) }
+                }
+                DensityDoc::Uniform {} => GridRef::default(),
+            });
+            density::grid_ui(ui, "temperature", grid, grids, commands, Purpose::TemperatureFile);
+        } else {
+            emission.temperature = None;
+        }
+        Value::new("Kelvin", &mut emission.kelvin, 3000.0)
+            .opened(initial.kelvin)
+            .range(0.001..=15_000.0)
+            .logarithmic()
+            .unit("K")
+            .tip(if by_grid { "Kelvins of a temperature of 1" } else { "How hot it is" })
+            .show(ui);
+        Value::new("Scale", &mut emission.scale, 1.0)
+            .opened(initial.scale)
+            .range(0.0..=1e6)
+            .logarithmic()
+            .named("Emission scale")
+            .tip("Multiplies the radiance, which is 1 for 3000 K at 560 nm")
+            .show(ui);
+        hint(ui, "Radiance σa(λ) B(λ, T): only what absorbs glows. At an albedo of 1 nothing does.");
+    }
+}
