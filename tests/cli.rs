@@ -179,7 +179,8 @@ fn info_describes_volumes_and_scenes() {
 fn check_prints_its_table_and_says_what_it_could_have_seen() {
     let table = succeeds(&["check", "furnace/thin", "half-space/chromatic-roulette"]);
     let lines: Vec<_> = table.lines().collect();
-    let rows = 2 * majorant_core::estimator::REGISTRY.len();
+    // One estimator has no finite variance in the half-space.
+    let rows = 2 * majorant_core::estimator::REGISTRY.len() - 1;
     assert_eq!(lines.len(), 1 + rows + 1, "{table}");
     assert!(lines[0].contains("measured") && lines[0].contains("verdict"), "{table}");
     assert!(lines[1..=rows].iter().all(|l| l.ends_with("  agrees")), "{table}");
