@@ -2,8 +2,11 @@
 //! estimator is held against in `conformance.rs`.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-use majorant_core::estimator::REGISTRY;
-use majorant_core::scene::Mode;
+use majorant_core::estimator::{self, PathIndex, REGISTRY, Settings};
+use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::medium::Interpolation;
+use majorant_core::scene::{Mode, SceneDoc, build};
+use majorant_core::transport::Wanted;
 use majorant_tests::render::{CAMERA, allowed, mean, scene};
 
 /// A lamp's light reaches all the way through the medium that the lamp stands in: at distance d in a
@@ -97,4 +100,46 @@ fn distance_to_the_camera_does_not_matter() {
     let error = near_error.hypot(far_error);
     assert!(error < 2e-3 * near, "{near} ± {error}");
     assert!((near - far).abs() < allowed(1) * error, "{near} {far} ± {error}");
+}
+
+/// A majorant of factor 1 bounds what look-ups see, to the last bit, at any resolution and either interpolation; a
+/// lower one is exceeded, and counted.
+#[test]
+fn the_majorant_is_exceeded_only_where_it_does_not_bound() {
+    for name in ["plume-spectral", "cloud-sidelit"] {
+        let toml = embedded::find(name).unwrap().toml;
+        let mut doc = scene_file::parse(toml, name).unwrap();
+        (doc.film.width, doc.film.height) = (24, 16);
+        let mut library = Library::default();
+        let mut exceeded = |doc: &SceneDoc| -> (u64, u64) {
+            let scene = build(doc, &mut library).unwrap();
+            let settings = Settings::new(&doc.estimator, 5);
+            let kernel = estimator::find("uni-nee-mis").unwrap().kernel;
+            let pixels = (0..24).flat_map(|x| (0..16).map(move |y| (x, y)));
+            let paths = pixels.flat_map(|at| (0..8).map(move |sample| (at, sample)));
+            paths.fold((0, 0), |(exceeded, lookups), ((x, y), sample)| {
+                let path = kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS);
+                (exceeded + path.exceeded, lookups + path.lookups)
+            })
+        };
+        for (resolution, interpolation) in [None, Some(1), Some(7), Some(64)]
+            .into_iter()
+            .flat_map(|r| [Interpolation::Trilinear, Interpolation::Stochastic].map(|i| (r, i)))
+        {
+            doc.medium.majorant.resolution = resolution;
+            doc.medium.interpolation = interpolation;
+            doc.medium.majorant.factor = 1.0;
+            let (none, lookups) = exceeded(&doc);
+            assert!(
+                none == 0 && lookups > 1000,
+                "{name} {resolution:?} {interpolation:?}: {none} of {lookups}"
+            );
+            doc.medium.majorant.factor = 0.5;
+            let (some, lookups) = exceeded(&doc);
+            assert!(
+                some > 0 && some < lookups,
+                "{name} {resolution:?} {interpolation:?}: {some} of {lookups}"
+            );
+        }
+    }
 }

@@ -16,6 +16,8 @@ pub struct Stats {
     pub lookups_per_second: Option<f64>,
     /// Look-ups of the medium per path.
     pub lookups_per_path: Option<f64>,
+    /// Share of look-ups at which the extinction exceeded the majorant.
+    pub exceeded: Option<f64>,
     /// Share of the way to the nearest limit, 0 to 1.
     pub progress: Option<f32>,
     /// Time to the nearest limit.
@@ -50,6 +52,7 @@ impl Stats {
             spp_per_second,
             lookups_per_second: per(lookups, seconds),
             lookups_per_path: per(lookups, snapshot.tally.paths as f64),
+            exceeded: per(snapshot.tally.exceeded as f64, lookups),
             progress: progress.map(|p| p.clamp(0.0, 1.0) as f32),
             eta_seconds: eta.map(|eta| eta.max(0.0)),
             non_finite: snapshot.tally.non_finite,

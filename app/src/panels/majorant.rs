@@ -63,6 +63,15 @@ impl Panel for Majorant {
                 ui.monospace(format!("{lookups:.2} per path"));
             });
         }
+        if let Some(exceeded) = cx.stats.exceeded.filter(|share| *share > 0.0) {
+            row(ui, "Exceeded", "Share of look-ups at which σt was larger than μ", |ui, _| {
+                let colour = Palette::get(ui).warning;
+                ui.colored_label(
+                    colour,
+                    egui::RichText::new(format!("{:.2} %", 100.0 * exceeded)).monospace(),
+                );
+            });
+        }
         slice_ui(ui, cx.settings.majorant_slice, cells.is_some(), cx.commands);
         let majorant = &mut cx.draft.medium.majorant;
         let shared = "Every wavelength gets the largest one's majorant";

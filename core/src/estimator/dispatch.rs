@@ -69,6 +69,8 @@ pub struct PathEstimate {
     pub rgb: Vec3,
     /// Evaluations of the medium's coefficients.
     pub lookups: u64,
+    /// Collisions at which the extinction exceeded the majorant.
+    pub exceeded: u64,
 }
 
 /// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels, or one
@@ -134,7 +136,7 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     } else {
         E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
     };
-    PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups }
+    PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups, exceeded: trace.exceeded }
 }
 
 #[cfg(test)]

@@ -21,6 +21,8 @@ pub struct Tally {
     pub paths: u64,
     /// Evaluations of the medium's coefficients (density look-ups).
     pub lookups: u64,
+    /// Of those, at collisions where the extinction exceeded the majorant.
+    pub exceeded: u64,
     /// Samples that were not finite and were left out.
     pub non_finite: u64,
     /// The first few of them.
@@ -42,6 +44,7 @@ impl Tally {
     pub fn merge(&mut self, other: &Self) {
         self.paths += other.paths;
         self.lookups += other.lookups;
+        self.exceeded += other.exceeded;
         self.non_finite += other.non_finite;
         let room = Self::LOCATED.saturating_sub(self.located.len());
         self.located.extend(other.located.iter().take(room));

@@ -196,7 +196,7 @@ mod tests {
 
     fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
         let value = if at.x == 1 && at.sample == 0 { f32::NAN } else { 0.5 };
-        PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1 }
+        PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
     }
 
     /// A coordinator with one view of 3 × 2 pixels that is traced by `kernel`.

@@ -90,6 +90,7 @@ impl Work<'_> {
                 for (sample, estimate) in some.clone().zip(estimates) {
                     cost.tally.paths += 1;
                     cost.tally.lookups += estimate.lookups;
+                    cost.tally.exceeded += estimate.exceeded;
                     pixel.lookups += estimate.lookups;
                     if estimate.rgb.is_finite() {
                         pixel.add(estimate.rgb.to_array());
@@ -118,7 +119,7 @@ mod tests {
     /// Every third path of a row has no value.
     fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
         let value = if (at.x + at.y).is_multiple_of(3) { f32::NAN } else { at.sample as f32 };
-        PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x) }
+        PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x), exceeded: 0 }
     }
 
     /// A film of 11 rows after passes that end at these samples, with what it has cost.

@@ -41,6 +41,8 @@ pub struct Collision<const N: usize> {
     pub scattering_density: Sampled<N>,
     /// Density of taking it as absorption, for the hero.
     absorption_density: f32,
+    /// Whether the majorant bounds the extinction here, at every component.
+    pub bounds: bool,
 }
 
 impl<const N: usize> Collision<N> {
@@ -61,7 +63,7 @@ impl<const N: usize> Collision<N> {
             scattering_density *= k;
             absorption_density *= k.hero();
         }
-        Self { point, coefficients, null_density, scattering_density, absorption_density }
+        Self { point, coefficients, null_density, scattering_density, absorption_density, bounds }
     }
 
     /// Draws whether the collision is real, by μt / μ̄ of the hero (the report's algorithm 3): where the majorant is

@@ -88,7 +88,9 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 way.t += distance;
                 trace.lookups += 1;
                 let coefficients = self.medium.coefficients(way.in_medium.at(way.t), segment);
-                return Some(Collision::new(way.in_world.at(way.t), coefficients, self.absorption));
+                let collision = Collision::new(way.in_world.at(way.t), coefficients, self.absorption);
+                trace.exceeded += u64::from(!collision.bounds);
+                return Some(collision);
             }
             optical_depth -= in_segment;
             passed += segment.majorant * (segment.t1 - way.t);

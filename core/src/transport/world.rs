@@ -42,6 +42,8 @@ pub struct Trace<'a> {
     pub sampler: Sampler,
     /// Evaluations of the medium's coefficients.
     pub lookups: u64,
+    /// Collisions at which the extinction exceeded the majorant.
+    pub exceeded: u64,
     wanted: Wanted<'a>,
     steps: u32,
     stopped: bool,
@@ -51,7 +53,7 @@ impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
     pub fn new(sampler: Sampler, wanted: Wanted<'a>) -> Self {
-        Self { sampler, lookups: 0, wanted, steps: 0, stopped: false }
+        Self { sampler, lookups: 0, exceeded: 0, wanted, steps: 0, stopped: false }
     }
 
     /// Counts a collision or a vertex; true once the path is not wanted any more, and from then on.
