@@ -84,6 +84,7 @@ static BRIGHT: [Entry; 1] = [Entry {
     summary: "",
     reference: "",
     unused: &[],
+    infinite_variance: |_| None,
     bias_of: |_| None,
     kernel: bright,
 }];

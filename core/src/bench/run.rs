@@ -83,22 +83,25 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
     let mut rows = Vec::new();
     let mut done = 0;
     for subject in &plan.subjects {
-        let runner = Runner::new(subject, &pool)?;
+        // What is biased on a scene has no efficiency there: its error does not fall with time.
+        let unbiased = plan.estimators.iter().filter(|entry| entry.bias(&subject.doc).is_none());
+        let estimators: Vec<_> = unbiased.copied().collect();
+        let runner = Runner::new(subject, &estimators, &plan.estimators, &pool)?;
         let mut report = |next: String, rows: &[Row]| {
             progress(&Progress { done, of: per_scene * plan.subjects.len(), next, rows });
             done += 1;
         };
         report(format!("{}  reference", subject.name), &[]);
         let reference = runner.reference()?;
-        let mut trials = vec![Vec::new(); plan.estimators.len()];
+        let mut trials = vec![Vec::new(); estimators.len()];
         for repeat in 0..plan.repeats {
-            for (entry, trials) in plan.estimators.iter().zip(&mut trials) {
+            for (entry, trials) in estimators.iter().zip(&mut trials) {
                 report(format!("{}  {} {}/{}", subject.name, entry.id, repeat + 1, plan.repeats), &[]);
                 trials.push(runner.trial(entry, u64::from(repeat), plan.budget, &reference)?);
             }
         }
         let first = rows.len();
-        rows.extend(plan.estimators.iter().zip(&trials).map(|(entry, own)| {
+        rows.extend(estimators.iter().zip(&trials).map(|(entry, own)| {
             let about = (threads, reference.origin.clone());
             Row::new(subject.name.clone(), entry.id, own, &trials[0], about)
         }));
@@ -119,14 +122,19 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(subject: &'a Subject, pool: &'a ThreadPool) -> Result<Self, BenchError> {
+    fn new(
+        subject: &'a Subject,
+        unbiased: &[&Entry],
+        wanted: &[&Entry],
+        pool: &'a ThreadPool,
+    ) -> Result<Self, BenchError> {
         let scene = subject.name.clone();
         let mut library = subject.library.clone();
         let frozen = pool
             .install(|| build(&subject.doc, &mut library))
             .map_err(|source| BenchError::Scene { scene: scene.clone(), source })?;
-        let biased = estimator::REGISTRY.first().and_then(|entry| entry.bias(&subject.doc));
-        match biased {
+        let biased = wanted.first().and_then(|entry| entry.bias(&subject.doc));
+        match biased.filter(|_| unbiased.is_empty()) {
             Some(reason) => Err(BenchError::Biased { scene, reason }),
             None => Ok(Self { subject, scene: Arc::new(frozen), pool }),
         }

@@ -88,7 +88,9 @@ impl Case {
     /// The estimators that are unbiased for it.
     #[must_use]
     pub fn estimators(&self) -> Vec<&'static Entry> {
-        self.registry.iter().filter(|e| e.bias(&self.doc).is_none()).collect()
+        let can_be_judged =
+            |e: &&Entry| e.bias(&self.doc).is_none() && (e.infinite_variance)(&self.doc).is_none();
+        self.registry.iter().filter(can_be_judged).collect()
     }
 
     /// Comparisons that it amounts to over all its estimators.

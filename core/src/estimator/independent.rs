@@ -31,6 +31,7 @@ pub(super) const ENTRY: Entry = Entry {
         HERO_DRAWS,
         RESCALED,
     ],
+    infinite_variance: |_| None,
     bias_of: clamped_majorant,
     kernel: dispatch::single::<Independent>,
 };

@@ -21,7 +21,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{DensityDoc, Scene, SceneDoc};
-use crate::spectrum::{Components, Radiance, Sampled};
+use crate::spectrum::{Components, Quantity, Radiance, Sampled, Spectrum};
 use crate::transport::{Trace, Vertex, Wanted, World};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -36,20 +36,31 @@ pub(super) const ENTRY: Entry = Entry {
         (Axis::Techniques, "it combines them per bounce, by the power heuristic"),
         (Axis::Tracking, "delta tracking draws its events"),
     ],
+    infinite_variance,
     bias_of,
     kernel: kernel as Kernel,
 };
 
 /// Delta tracking has no weight for collisions that exceed the majorant.
+/// Where components differ, the weight of a thin one is a product of e^((mean − μ) t), which nothing bounds.
+fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
+    let flat = |spectrum| Spectrum::new(spectrum, Quantity::Coefficient).is_flat();
+    let coloured = is_uniform(doc) && !flat(&doc.medium.extinction);
+    coloured.then_some("flights by the mean extinction give thin components weights that nothing bounds")
+}
+
+fn is_uniform(doc: &SceneDoc) -> bool {
+    matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none()
+}
+
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
-    let uniform = matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none();
     if let Some(why) = clamped_majorant(doc) {
         return Some(why);
     }
     if doc.medium.emission.is_some() {
         return Some("it knows no light from within the medium");
     }
-    let exceeded = doc.medium.majorant.factor < 1.0 && !uniform;
+    let exceeded = doc.medium.majorant.factor < 1.0 && !is_uniform(doc);
     exceeded
         .then_some("its delta tracking needs a majorant that bounds")
         .or_else(|| biased_transmittance(doc))

@@ -31,6 +31,8 @@ pub struct Entry {
     pub reference: &'static str,
     /// Choices that change nothing about it, each with the reason.
     pub unused: &'static [(Axis, &'static str)],
+    /// Why the variance of its estimate has no bound, if so: its mean is right, and no number of samples shows it.
+    pub infinite_variance: fn(&SceneDoc) -> Option<&'static str>,
     /// Why its estimate of a document's image is biased, if it is.
     pub bias_of: fn(&SceneDoc) -> Option<&'static str>,
     /// Traces one path.

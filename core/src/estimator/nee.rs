@@ -25,6 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
     unused: &[ONE_TECHNIQUE, HERO_DRAWS, RESCALED],
+    infinite_variance: |_| None,
     bias_of,
     kernel: dispatch::family::<Nee>,
 };

@@ -25,6 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
     unused: &[ONE_TECHNIQUE, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, HERO_DRAWS, RESCALED],
+    infinite_variance: |_| None,
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralMis>,
 };

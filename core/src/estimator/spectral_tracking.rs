@@ -32,6 +32,7 @@ pub(super) const ENTRY: Entry = Entry {
         NO_CONNECTIONS,
         NOTHING_TO_ESTIMATE,
     ],
+    infinite_variance: |_| None,
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralTracking>,
 };

@@ -35,6 +35,7 @@ pub(super) const ENTRY: Entry = Entry {
             "MIS needs the density of every null collision, which other estimates do not have",
         ),
     ],
+    infinite_variance: |_| None,
     bias_of: clamped_majorant,
     kernel,
 };

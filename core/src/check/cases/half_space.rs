@@ -15,10 +15,8 @@
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
 use super::AXIS;
-use crate::estimator::{Entry, REGISTRY};
 use crate::scene::Absorption;
 use crate::spectrum::SpectrumDoc;
-use std::sync::LazyLock;
 
 pub(super) const FAMILY: Family = Family {
     id: "half-space",
@@ -45,11 +43,6 @@ fn escape(albedo: f64) -> f64 {
     }
     1.0 - root * at(1.0, &h)
 }
-
-/// Those whose variance is finite here. The older baseline flies by the components' mean extinction μ: the weight of a
-/// component that is thinner is a product of e^((μ − μ_j) t), which nothing bounds in a deep medium.
-static BOUNDED: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.id != "mitsuba2-volpath").copied().collect());
 
 fn cases() -> Result<Vec<Case>, CheckError> {
     let toml = |extinction: &str, albedo: &str, mode: &str| {
@@ -83,12 +76,9 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let nm = toml("\"430:2, 540:40, 600:1\"", &points.toml(), "spectral");
     let nm = Case::new("half-space/spectral", &nm, Answer::uniform(seen, Layout::WHOLE).within(2e-4))?;
     Ok(vec![
-        rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue)
-            .among(&BOUNDED),
-        rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1))
-            .among(&BOUNDED),
-        nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2))
-            .among(&BOUNDED),
+        rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue),
+        rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1)),
+        nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2)),
         grey,
     ])
 }
