@@ -205,7 +205,8 @@ fn check_holds_estimators_against_each_other_on_a_scene_of_ones_own() {
     let json: Value = serde_json::from_str(&succeeds(&["check", &loose, "--json"])).unwrap();
     assert_eq!(json["passes"], true);
     let rows = json["rows"].as_array().unwrap();
-    assert_eq!(rows.len(), majorant_core::estimator::REGISTRY.len());
+    // The older baseline has no finite variance in a uniform medium of this colour.
+    assert_eq!(rows.len(), majorant_core::estimator::REGISTRY.len() - 1);
     for row in rows {
         assert_eq!((&row["verdict"], &row["scene"]), (&"agrees".into(), &loose.as_str().into()), "{row}");
         let number = |key: &str| row[key].as_f64().unwrap();

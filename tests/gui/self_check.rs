@@ -26,7 +26,8 @@ fn this_scene_is_checked_estimator_against_estimator() {
     wait(&mut lab, "the check", |app| app.self_check().ending().is_some());
     let check = lab.state().self_check();
     assert!(matches!(check.ending(), Some(Ending::Finished(_))), "{:?}", check.ending());
-    let all = REGISTRY.len();
+    // The older baseline has no finite variance in a uniform medium of this colour.
+    let all = REGISTRY.len() - 1;
     assert_eq!(check.rows().len(), all);
     assert!(check.rows().iter().all(|row| row.verdict == Verdict::Agrees), "{:?}", check.rows());
     lab.run_steps(2);
