@@ -3,7 +3,7 @@
 
 use majorant_core::estimator::PathIndex;
 use majorant_core::io::{Library, picture, scene_file};
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc, SceneDoc, build};
+use majorant_core::scene::{Angle, DensityDoc, GridRef, LightDoc, PhaseDoc, SceneDoc, build};
 use majorant_core::transport::Wanted;
 use majorant_tests::render::frozen;
 use std::path::Path;
@@ -87,6 +87,40 @@ fn an_albedo_grid_above_one_is_refused() {
 }
 
 #[test]
+fn phase_tables_are_read_from_files_and_bad_ones_refused() {
+    let folder = folder();
+    let with_table = |text: &str| {
+        std::fs::write(folder.path().join("lobe.csv"), text).unwrap();
+        let mut doc = SceneDoc::default();
+        doc.medium.phase =
+            PhaseDoc::Tabulated { angle: Angle::Degrees, points: Vec::new(), file: "lobe.csv".into() };
+        build(&doc, &mut Library::default().with_base(folder.path()))
+    };
+    let scene = with_table("theta, p\n0, 3\n90, 1\n180, 1\n").unwrap();
+    assert_eq!(scene.info.phase_points, [[0.0, 3.0], [90.0, 1.0], [180.0, 1.0]]);
+    // 1 behind, from 1 to 3 in front: 1.5 in the mean.
+    let expected = 2.0 / 1.5 / (4.0 * std::f32::consts::PI);
+    assert!((scene.phase.value(0.5) / expected - 1.0).abs() < 1e-5);
+    for (text, word) in [
+        ("", "0 points"),
+        ("0, 1\n90, x\n", "lobe.csv:2"),
+        ("0, 1\n90, nan\n", "not finite"),
+        ("0, 1\n90, -1\n", "negative"),
+        ("90, 1\n0, 1\n", "rise"),
+        ("0, 1\n200, 1\n", "outside"),
+        ("0, 0\n180, 0\n", "everywhere"),
+    ] {
+        let message = with_table(text).unwrap_err().to_string();
+        assert!(message.contains("medium.phase.file") && message.contains(word), "{text}: {message}");
+    }
+    let mut doc = SceneDoc::default();
+    doc.medium.phase =
+        PhaseDoc::Tabulated { angle: Angle::Cosine, points: Vec::new(), file: "no.csv".into() };
+    let message = build(&doc, &mut Library::default().with_base(folder.path())).unwrap_err().to_string();
+    assert!(message.contains("no.csv"), "{message}");
+}
+
+#[test]
 fn a_scene_without_light_is_black_and_says_so() {
     let doc = SceneDoc { lights: Vec::new(), ..SceneDoc::default() };
     let scene = frozen(&doc, Path::new(""));
@@ -150,6 +184,29 @@ fn absurd_scenes_are_refused_by_name() {
         ("[medium]\nextinction = -2.0", "medium.extinction"),
         ("[medium.majorant]\nfactor = 0.0", "factor"),
         ("[medium.phase]\nkind = \"henyey-greenstein\"\ng = 1.0", "medium.phase.g"),
+        ("[medium.phase]\nkind = \"draine\"\ng = 1.0\nalpha = 1.0", "medium.phase.g"),
+        ("[medium.phase]\nkind = \"draine\"\ng = 0.0\nalpha = nan", "medium.phase.alpha"),
+        ("[medium.phase]\nkind = \"mie\"\ndiameter_um = 0.0", "medium.phase.diameter_um"),
+        ("[medium.phase]\nkind = \"tabulated\"", "medium.phase.points"),
+        ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.0, 1.0], [0.5, nan]]", "not finite"),
+        ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.0, 1.0], [0.5, -1.0]]", "negative"),
+        ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.5, 1.0], [0.0, 1.0]]", "rise"),
+        (
+            "[medium.phase]\nkind = \"tabulated\"\nfile = \"a\"\npoints = [[0.5, 1.0], [0.7, 1.0]]",
+            "medium.phase.file",
+        ),
+        (
+            "[medium.coefficients]\nkind = \"mean-free-path-colour\"\nmean_free_path = 0.0\ncolour = 0.5",
+            "medium.coefficients.mean_free_path",
+        ),
+        (
+            "[medium.coefficients]\nkind = \"mean-free-path-colour\"\nmean_free_path = { points = \"500:1\", outside = \"zero\" }\ncolour = 0.5",
+            "zero beyond",
+        ),
+        (
+            "[medium.coefficients]\nkind = \"mean-free-path-colour\"\nmean_free_path = 1.0\ncolour = 1.5",
+            "medium.coefficients.colour",
+        ),
         ("[medium.placement]\nfit = 0.0", "fit"),
         ("[camera]\norigin = [0.0, 0.0, 0.0]", "camera.target"),
         ("[camera]\norigin = [0.0, 0.0, 1e-30]", "camera.target"),

@@ -20,6 +20,7 @@ use majorant::lab::LabApp;
 use majorant::model::Source;
 use majorant::panels::PANELS;
 use majorant_core::estimator::REGISTRY;
+use majorant_core::scene::{Angle, CoefficientsDoc, PhaseDoc};
 use majorant_core::session::Status;
 use majorant_core::spectrum::SpectrumDoc;
 use std::time::Duration;
@@ -122,6 +123,54 @@ fn a_spectrum_point_is_dragged_added_and_removed() {
     lab.run_steps(3);
     assert_eq!(points(&lab).len(), 3);
     assert!(points(&lab)[2].lambda_nm > 700.0);
+}
+
+#[test]
+fn every_phase_function_is_picked_and_edited() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "Phase function");
+    for template in PhaseDoc::templates() {
+        let label = format!("Phase function: {}", template.kind().short);
+        click(&mut lab, Role::Button, &label);
+        assert_eq!(doc(&lab).medium.phase, template);
+        lab.check_accessibility();
+        for (index, (parameter, value)) in template.parameters().into_iter().enumerate() {
+            let name = format!("Phase {}", parameter.label);
+            let to = 0.5 * (value + parameter.range[1]);
+            lab.get_by_role_and_label(Role::SpinButton, &name).set_value_accesskit(f64::from(to));
+            lab.run_steps(3);
+            let now = doc(&lab).medium.phase.parameters()[index].1;
+            assert!((now - to).abs() < 1e-3 * to.abs(), "{name}: {now} instead of {to}");
+        }
+    }
+    // The last is the table.
+    click(&mut lab, Role::Button, "First column: cos θ");
+    let PhaseDoc::Tabulated { angle: Angle::Cosine, points, .. } = &doc(&lab).medium.phase else {
+        panic!("{:?}", doc(&lab).medium.phase)
+    };
+    assert_eq!(points.last(), Some(&[1.0, 20.0]));
+}
+
+#[test]
+fn coefficients_given_another_way_are_the_same_medium() {
+    let (mut lab, _directory) = lab();
+    let before = doc(&lab).medium.clone();
+    click(&mut lab, Role::Button, "Coefficients: σa, σs");
+    let sums = doc(&lab).medium.coefficients.clone();
+    assert!(matches!(sums, Some(CoefficientsDoc::AbsorptionScattering { .. })), "{sums:?}");
+    lab.check_accessibility();
+    click(&mut lab, Role::Button, "Coefficients: Path, colour");
+    let paths = doc(&lab).medium.coefficients.clone();
+    assert!(matches!(paths, Some(CoefficientsDoc::MeanFreePathColour { .. })), "{paths:?}");
+    lab.check_accessibility();
+    let [(t0, a0), (t, a)] = [&before, &doc(&lab).medium].map(|m| m.extinction_and_albedo(0.0));
+    for lambda in [430.0, 540.0, 572.0] {
+        assert!((t.at(lambda) / t0.at(lambda) - 1.0).abs() < 1e-4, "{lambda}");
+        assert!((a.at(lambda) - a0.at(lambda)).abs() < 1e-4, "{lambda}");
+    }
+    undo(&mut lab);
+    undo(&mut lab);
+    assert_eq!(doc(&lab).medium, before);
 }
 
 #[test]

@@ -6,10 +6,10 @@ use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
 use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
-    Absorption, Arrangement, Bookkeeping, CameraDoc, CompareDoc, ContenderDoc, DensityDoc, DirectionSampling,
-    EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic, Heuristics, Layer, LightDoc,
-    LightSelection, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc,
-    ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
+    Absorption, Angle, Arrangement, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc,
+    DensityDoc, DirectionSampling, EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic,
+    Heuristics, Layer, LightDoc, LightSelection, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair,
+    PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -36,6 +36,10 @@ fn everything() -> SceneDoc {
                 outside: Outside::Zero,
             },
             albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]),
+            coefficients: Some(CoefficientsDoc::AbsorptionScattering {
+                absorption: SpectrumDoc::Constant(0.25),
+                scattering: SpectrumDoc::Rgb([1.0, 2.0, 3.0]),
+            }),
             albedo_grid: Some(GridRef { file: "a.vol".into(), grid: None }),
             density: DensityDoc::Grid(GridRef { file: "d.vdb".into(), grid: Some("smoke".into()) }),
             precision: Precision::F16,
@@ -119,11 +123,51 @@ fn everything() -> SceneDoc {
     }
 }
 
+fn with(edit: impl FnOnce(&mut MediumDoc)) -> SceneDoc {
+    let mut doc = SceneDoc::default();
+    edit(&mut doc.medium);
+    doc
+}
+
+/// Every kind of phase function, with numbers that are not those of the templates.
+fn phases() -> Vec<PhaseDoc> {
+    let mut phases = PhaseDoc::templates();
+    for phase in &mut phases {
+        for (parameter, value) in phase.parameters_mut() {
+            *value = 0.7 * *value + 0.1 * parameter.range[1].min(1.0);
+        }
+        if let PhaseDoc::Tabulated { angle, points, .. } = phase {
+            *angle = Angle::Cosine;
+            *points = vec![[-0.75, 0.125], [0.1, 3.0], [1.0, 1e-3]];
+        }
+    }
+    phases.push(PhaseDoc::Tabulated { angle: Angle::Degrees, points: Vec::new(), file: "lobe.csv".into() });
+    phases
+}
+
+fn coefficients() -> Vec<CoefficientsDoc> {
+    let text = "430:8, 540:0.5";
+    let points =
+        SpectrumDoc::Points { points: SpectrumDoc::parse_points(text).unwrap(), outside: Outside::Hold };
+    vec![
+        CoefficientsDoc::AbsorptionScattering {
+            absorption: points.clone(),
+            scattering: SpectrumDoc::Preset("report-plume".into()),
+        },
+        CoefficientsDoc::MeanFreePathColour {
+            mean_free_path: points,
+            colour: SpectrumDoc::Rgb([0.9, 0.5, 0.2]),
+        },
+    ]
+}
+
 #[test]
 fn documents_read_back_as_they_were_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     let mut docs = vec![everything(), SceneDoc::default()];
+    docs.extend(phases().into_iter().map(|phase| with(|medium| medium.phase = phase)));
+    docs.extend(coefficients().into_iter().map(|way| with(|medium| medium.coefficients = Some(way))));
     docs.extend(SCENES.iter().map(|s| parse(s.toml, s.name).unwrap()));
     for doc in docs {
         save(&path, &doc).unwrap();
@@ -177,6 +221,32 @@ fn mistakes_are_named_with_line_and_column() {
         ("majorant = 1\n[medium]\nscale = nan\n", 3, 9, "medium.scale"),
         ("majorant = 1\n[medium.phase]\nkind = \"isotropic\"\ng = 0.9\n", 4, 1, "`g`"),
         ("majorant = 1\n[medium.density]\nkind = \"uniform\"\nscale = 3\n", 4, 1, "`scale`"),
+        (
+            "majorant = 1\n[medium.phase]\nkind = \"draine\"\ng = 0.5\nalpha = -1.0\n",
+            5,
+            9,
+            "medium.phase.alpha",
+        ),
+        ("majorant = 1\n[medium.phase]\nkind = \"mie\"\ndiameter_um = 60.0\n", 4, 15, "0.001 to 50"),
+        ("majorant = 1\n[medium.phase]\nkind = \"mie\"\ndiameter = 6.0\n", 4, 1, "diameter"),
+        (
+            "majorant = 1\n[medium.phase]\nkind = \"tabulated\"\npoints = [[0.5, 1.0]]\n",
+            4,
+            10,
+            "at least two",
+        ),
+        (
+            "majorant = 1\n[medium.coefficients]\nkind = \"absorption-scattering\"\nabsorption = 1.0\nscattering = -2.0\n",
+            5,
+            14,
+            "medium.coefficients.scattering",
+        ),
+        (
+            "majorant = 1\n[medium.coefficients]\nkind = \"absorption-scattering\"\nabsorption = 1.0\n",
+            2,
+            0,
+            "scattering",
+        ),
         (
             "majorant = 1\n[[lights]]\nkind = \"environment\"\nscale = 2.0\nradiance = -3.0\n",
             5,

@@ -17,6 +17,8 @@ pub enum Purpose {
     DensityFile,
     /// The temperature file of the medium's emission.
     TemperatureFile,
+    /// The table of the phase function.
+    PhaseTable,
     /// The picture of the environment map with this index.
     EnvironmentMap(usize),
     /// Where to save the scene.

@@ -31,6 +31,7 @@ impl PathPrompt {
             Purpose::OpenVolume | Purpose::DensityFile | Purpose::TemperatureFile => {
                 ("Open volume", "Open", "path/to/volume.vdb")
             }
+            Purpose::PhaseTable => ("Open phase function", "Open", "path/to/lobe.csv"),
             Purpose::EnvironmentMap(_) => ("Open environment map", "Open", "path/to/sky.exr"),
             Purpose::Reference => ("Open reference", "Open", "path/to/reference.exr"),
             Purpose::ExportReport => ("Export comparison", "Export", "path/to/folder"),
@@ -46,6 +47,7 @@ impl PathPrompt {
             Purpose::OpenVolume => "It becomes the medium's density, fitted to length 1 around the origin.",
             Purpose::DensityFile => "It replaces the density; the placement stays.",
             Purpose::TemperatureFile => "It is laid over the density, if both files say where they stand.",
+            Purpose::PhaseTable => "Text with an angle and a value on each line.",
             Purpose::EnvironmentMap(_) => "An equirectangular picture, linear sRGB.",
             Purpose::Reference => "An EXR of this scene; standard errors are used if it holds them.",
             Purpose::ExportReport => {

@@ -9,7 +9,7 @@ use crate::widgets::format_number;
 use majorant_core::compare;
 use majorant_core::io::picture;
 use majorant_core::io::volume::EXTENSIONS;
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc, ReferenceDoc};
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc, PhaseDoc, ReferenceDoc};
 use std::path::{Path, PathBuf};
 
 /// What a file is, by its extension.
@@ -103,6 +103,15 @@ impl LabApp {
                 let mut doc = self.doc().clone();
                 if let Some(emission) = &mut doc.medium.emission {
                     emission.temperature = Some(GridRef { file, grid: None });
+                }
+                self.document.edit(doc);
+            }
+            Purpose::PhaseTable => {
+                let name = self.short_name(&path);
+                let mut doc = self.doc().clone();
+                if let PhaseDoc::Tabulated { points, file, .. } = &mut doc.medium.phase {
+                    points.clear();
+                    *file = name;
                 }
                 self.document.edit(doc);
             }

@@ -153,6 +153,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
         Purpose::OpenVolume | Purpose::DensityFile | Purpose::TemperatureFile => {
             ("Open volume", "Volumes", volume::EXTENSIONS, "")
         }
+        Purpose::PhaseTable => ("Open phase function", "Tables", &["csv", "txt", "dat"], ""),
         Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),

@@ -3,7 +3,6 @@
 use glam::Vec3;
 use majorant_core::io::volume::{Limits, VoxelGrid, read_volume, validate_density};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
-use majorant_core::spectrum::{Quantity, Spectrum};
 use std::path::Path;
 
 /// The thickest line through a volume that was just opened gets this optical thickness at the
@@ -56,7 +55,8 @@ pub fn with_volume(doc: &SceneDoc, file: String, look: &Look) -> SceneDoc {
     };
     let strongest = match look.channels {
         3 => 1.0,
-        _ => Spectrum::new(&doc.medium.extinction, Quantity::Coefficient).max_over_wavelengths(),
+        // The extinction does not depend on the mean cosine.
+        _ => doc.medium.extinction_and_albedo(0.0).0.max_over_wavelengths(),
     };
     let thickness = strongest * look.thickest;
     if thickness > 0.0 {

@@ -3,6 +3,7 @@
 use super::{Column, Cx, Panel, extinction};
 use crate::widgets::{SpectrumField, hint, spectrum_editor};
 use egui::Ui;
+use majorant_core::scene::CoefficientsDoc;
 use majorant_core::spectrum::Quantity;
 
 /// See the [module](self).
@@ -19,9 +20,12 @@ impl Panel for Albedo {
         Column::Scene
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        match &cx.draft.medium.albedo_grid {
-            Some(_) => "RGB grid".into(),
-            None => extinction::in_words(&cx.draft.medium.albedo),
+        let medium = &cx.draft.medium;
+        match (&medium.albedo_grid, &medium.coefficients) {
+            (Some(_), _) => "RGB grid".into(),
+            (None, None) => extinction::in_words(&medium.albedo),
+            (None, Some(CoefficientsDoc::AbsorptionScattering { .. })) => "from σa, σs".into(),
+            (None, Some(CoefficientsDoc::MeanFreePathColour { .. })) => "from the colour".into(),
         }
     }
 
@@ -31,6 +35,10 @@ impl Panel for Albedo {
             if ui.button("Use the spectrum").clicked() {
                 cx.draft.medium.albedo_grid = None;
             }
+            return;
+        }
+        if cx.draft.medium.coefficients.is_some() {
+            hint(ui, "It follows from the spectra under Extinction.");
             return;
         }
         let field = SpectrumField {

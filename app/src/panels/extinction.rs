@@ -1,9 +1,9 @@
 //! Extinction by wavelength: where the medium is coloured.
 
-use super::{Column, Cx, Panel};
+use super::{Column, Cx, Panel, coefficients};
 use crate::widgets::{SpectrumField, hint, spectrum_editor};
 use egui::Ui;
-use majorant_core::scene::DensityDoc;
+use majorant_core::scene::{CoefficientsDoc, DensityDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// See the [module](self).
@@ -33,14 +33,26 @@ impl Panel for Extinction {
         true
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        in_words(&cx.draft.medium.extinction)
+        match &cx.draft.medium.coefficients {
+            None => in_words(&cx.draft.medium.extinction),
+            Some(CoefficientsDoc::AbsorptionScattering { absorption, scattering }) => {
+                format!("σa {}, σs {}", in_words(absorption), in_words(scattering))
+            }
+            Some(CoefficientsDoc::MeanFreePathColour { mean_free_path, .. }) => {
+                format!("path {}", in_words(mean_free_path))
+            }
+        }
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let medium = &mut cx.draft.medium;
-        if matches!(medium.density, DensityDoc::RgbGrid(_)) {
+        coefficients::kind_ui(ui, cx);
+        if matches!(cx.draft.medium.density, DensityDoc::RgbGrid(_)) {
             hint(ui, "The RGB grid carries its own extinction; this spectrum is unused.");
         }
+        if coefficients::spectra_ui(ui, cx) {
+            return;
+        }
+        let medium = &mut cx.draft.medium;
         let field = SpectrumField {
             name: "Extinction",
             unit: "",

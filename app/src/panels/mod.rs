@@ -5,6 +5,7 @@
 
 mod albedo;
 mod camera;
+mod coefficients;
 mod density;
 mod display;
 mod emission;
@@ -15,6 +16,7 @@ mod lights;
 mod majorant;
 mod objects;
 mod phase;
+mod phase_table;
 mod placement;
 mod render;
 mod scene;

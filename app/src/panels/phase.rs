@@ -1,34 +1,17 @@
 //! The phase function: which way light scatters.
 
-use super::{Column, Cx, Panel};
+use super::{Column, Cx, Panel, phase_table};
 use crate::lab::Command;
-use crate::widgets::{Value, phase_lobe, row, segmented};
+use crate::widgets::{Value, format_number, phase_lobe, row, segmented};
 use egui::Ui;
-use majorant_core::phase::Phase;
+use majorant_core::phase::{Parameter, Phase};
 use majorant_core::scene::PhaseDoc;
 
 /// See the [module](self).
 pub struct PhaseFunction;
 
-/// Close to ±1 a lobe is a needle that single precision cannot hold.
-const G_MAX: f64 = 0.999;
-
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Isotropic,
-    HenyeyGreenstein,
-    TwoLobe,
-    Rayleigh,
-}
-
-fn kind(doc: PhaseDoc) -> Kind {
-    match doc {
-        PhaseDoc::Isotropic {} => Kind::Isotropic,
-        PhaseDoc::HenyeyGreenstein { .. } => Kind::HenyeyGreenstein,
-        PhaseDoc::TwoLobe { .. } => Kind::TwoLobe,
-        PhaseDoc::Rayleigh {} => Kind::Rayleigh,
-    }
-}
+/// Kinds that fit side by side.
+const PER_ROW: usize = 4;
 
 impl Panel for PhaseFunction {
     fn id(&self) -> &'static str {
@@ -41,29 +24,26 @@ impl Panel for PhaseFunction {
         Column::Scene
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        match cx.draft.medium.phase {
-            PhaseDoc::Isotropic {} => "isotropic".into(),
-            PhaseDoc::HenyeyGreenstein { g } => format!("g = {g}"),
-            PhaseDoc::TwoLobe { g_forward, g_backward, .. } => format!("g = {g_forward}, {g_backward}"),
-            PhaseDoc::Rayleigh {} => "Rayleigh".into(),
+        let phase = &cx.draft.medium.phase;
+        let number = |(p, v): (&Parameter, f32)| match p.unit {
+            "" => format_number(v.into()),
+            unit => format!("{} {unit}", format_number(v.into())),
+        };
+        let numbers: Vec<String> = phase.parameters().into_iter().map(number).collect();
+        match (phase, numbers.as_slice()) {
+            (PhaseDoc::HenyeyGreenstein { .. }, [g]) => format!("g = {g}"),
+            (_, []) => phase.kind().name.into(),
+            (_, numbers) => format!("{}: {}", phase.kind().short, numbers.join(", ")),
         }
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let phase = &mut cx.draft.medium.phase;
-        let mut chosen = kind(*phase);
-        let options = [
-            (Kind::Isotropic, "Isotropic", "p = 1 / 4π"),
-            (Kind::HenyeyGreenstein, "HG", "Henyey–Greenstein: p = (1 − g²) / 4π (1 + g² − 2 g cos θ)^1.5"),
-            (Kind::TwoLobe, "Two lobes", "A share of one Henyey–Greenstein lobe, the rest of another"),
-            (Kind::Rayleigh, "Rayleigh", "Molecules: p = 3 (1 + cos² θ) / 16π"),
-        ];
-        if segmented(ui, "Phase function", &mut chosen, &options) {
-            let mut templates = PhaseDoc::templates().into_iter().map(|(_, template)| template);
-            *phase = templates.find(|template| kind(*template) == chosen).unwrap_or(*phase);
+        kind_ui(ui, &mut cx.draft.medium.phase);
+        parameters_ui(ui, &mut cx.draft.medium.phase, &cx.opened.medium.phase);
+        if matches!(cx.draft.medium.phase, PhaseDoc::Tabulated { .. }) {
+            phase_table::table_ui(ui, cx);
         }
-        parameters_ui(ui, phase, cx.opened.medium.phase);
-        phase_lobe(ui, &Phase::new(phase), cx.settings.log_lobe);
+        phase_lobe(ui, &current(cx), cx.settings.log_lobe);
         row(ui, "Radius", "How far the curve is from the middle", |ui, _| {
             let mut log = cx.settings.log_lobe;
             let options = [
@@ -77,27 +57,45 @@ impl Panel for PhaseFunction {
     }
 }
 
-fn parameters_ui(ui: &mut Ui, phase: &mut PhaseDoc, opened: PhaseDoc) {
-    let mean = "Mean cosine of the scattering angle, −1 to 1; positive is forward";
-    match phase {
-        PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
-        PhaseDoc::HenyeyGreenstein { g } => {
-            let before = if let PhaseDoc::HenyeyGreenstein { g } = opened { g } else { *g };
-            let value = Value::new("g", g, 0.5).opened(before).range(-G_MAX..=G_MAX).speed(0.005);
-            value.named("Phase g").tip(mean).show(ui);
+/// The phase function as edited; the points of a table in a file are the session's.
+pub(super) fn current(cx: &Cx<'_>) -> Phase {
+    match (&cx.draft.medium.phase, cx.state.scene.as_ref()) {
+        (PhaseDoc::Tabulated { angle, file, .. }, Some(info)) if !file.is_empty() => {
+            let points = info.phase_points.clone();
+            Phase::new(&PhaseDoc::Tabulated { angle: *angle, points, file: String::new() })
         }
-        PhaseDoc::TwoLobe { g_forward, g_backward, forward } => {
-            let (a, b, c) = match opened {
-                PhaseDoc::TwoLobe { g_forward, g_backward, forward } => (g_forward, g_backward, forward),
-                _ => (*g_forward, *g_backward, *forward),
-            };
-            let lobe = |v: Value<'_, f32>, ui: &mut Ui| {
-                v.range(-G_MAX..=G_MAX).speed(0.005).tip(mean).show(ui);
-            };
-            lobe(Value::new("First g", g_forward, 0.8).opened(a), ui);
-            lobe(Value::new("Second g", g_backward, -0.3).opened(b), ui);
-            let share = Value::new("Share of first", forward, 0.7).opened(c).range(0.0..=1.0).speed(0.004);
-            share.tip("p = share · HG(first g) + (1 − share) · HG(second g)").show(ui);
-        }
+        (doc, _) => Phase::new(doc),
+    }
+}
+
+fn kind_ui(ui: &mut Ui, phase: &mut PhaseDoc) {
+    let templates = PhaseDoc::templates();
+    let kind = |doc: &PhaseDoc| templates.iter().position(|t| t.kind() == doc.kind()).unwrap_or_default();
+    let before = kind(phase);
+    let mut chosen = before;
+    let kinds: Vec<_> = templates.iter().map(PhaseDoc::kind).enumerate().collect();
+    for line in kinds.chunks(PER_ROW) {
+        let options: Vec<_> = line.iter().map(|(index, kind)| (*index, kind.short, kind.about)).collect();
+        segmented(ui, "Phase function", &mut chosen, &options);
+    }
+    if let Some(template) = templates.get(chosen).filter(|_| chosen != before) {
+        phase.clone_from(template);
+    }
+}
+
+fn parameters_ui(ui: &mut Ui, phase: &mut PhaseDoc, opened: &PhaseDoc) {
+    let templates = PhaseDoc::templates();
+    let default = templates.iter().find(|t| t.kind() == phase.kind()).map(PhaseDoc::parameters);
+    // What the scene had when it was opened counts if it was of the same kind.
+    let opened = if opened.kind() == phase.kind() { opened.parameters() } else { Vec::new() };
+    let default = default.unwrap_or_default();
+    for (index, (parameter, value)) in phase.parameters_mut().into_iter().enumerate() {
+        let of = |from: &[(&Parameter, f32)]| from.get(index).map(|(_, value)| *value);
+        let (before, default) = (of(&opened).unwrap_or(*value), of(&default).unwrap_or(*value));
+        let [lo, hi] = parameter.range.map(f64::from);
+        let field = Value::new(parameter.label, value, default).opened(before).unit(parameter.unit);
+        let field = field.range(lo..=hi).named(format!("Phase {}", parameter.label)).tip(parameter.about);
+        let field = if parameter.logarithmic { field.logarithmic() } else { field.speed(0.005) };
+        field.show(ui);
     }
 }

@@ -9,16 +9,6 @@ use std::f32::consts::{PI, TAU};
 const DECADES: f32 = 3.0;
 const SAMPLES: u16 = 720;
 
-/// Mean cosine of a phase function, by quadrature: 2π ∫ p(μ) μ dμ.
-#[must_use]
-pub fn mean_cosine(phase: &Phase) -> f32 {
-    let n = 4000_u16;
-    let step = 2.0 / f32::from(n);
-    let sum: f32 =
-        (0..n).map(|i| -1.0 + (f32::from(i) + 0.5) * step).map(|cosine| phase.value(cosine) * cosine).sum();
-    TAU * sum * step
-}
-
 /// Draws the lobe. `logarithmic` stretches the radius over three decades below the largest value.
 pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     let palette = Palette::get(ui);
@@ -61,7 +51,7 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
         painter.text(at, align, text, FontId::proportional(12.0), palette.weak);
     };
     text(rect.left_top() + vec2(8.0, 5.0), Align2::LEFT_TOP, "light arrives".into());
-    let mean = format!("mean cosine {}", signed(mean_cosine(phase)));
+    let mean = format!("mean cosine {}", signed(phase.mean_cosine()));
     text(rect.right_top() + vec2(-8.0, 5.0), Align2::RIGHT_TOP, mean);
     let peak = format!("largest {largest:.3} /sr");
     text(rect.right_bottom() + vec2(-8.0, -5.0), Align2::RIGHT_BOTTOM, peak);
@@ -91,15 +81,6 @@ fn fill(painter: &Painter, origin: Pos2, outline: &[Pos2], colour: egui::Color32
 #[cfg(test)]
 mod tests {
     use super::*;
-    use majorant_core::scene::PhaseDoc;
-
-    #[test]
-    fn the_mean_cosine_of_henyey_greenstein_is_g() {
-        for g in [-0.5, 0.0, 0.8] {
-            let phase = Phase::new(&PhaseDoc::HenyeyGreenstein { g });
-            assert!((mean_cosine(&phase) - g).abs() < 1e-3);
-        }
-    }
 
     #[test]
     fn a_mean_of_zero_has_no_sign() {

@@ -86,6 +86,21 @@ pub(super) fn henyey_greenstein(g: f64, cosine: f64) -> f64 {
     (1.0 - g * g) / (4.0 * PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5))
 }
 
+/// Draine, per steradian.
+pub(super) fn draine(g: f64, alpha: f64, cosine: f64) -> f64 {
+    let moment = (1.0 + 2.0 * g * g) / 3.0;
+    henyey_greenstein(g, cosine) * (1.0 + alpha * cosine * cosine) / (1.0 + alpha * moment)
+}
+
+/// Jendersie and d'Eon's lobes for droplets of 5 to 50 µm, per steradian.
+pub(super) fn droplets(d: f64, cosine: f64) -> f64 {
+    let g_hg = (-0.0990567 / (d - 1.67154)).exp();
+    let g_d = (-2.20679 / (d + 3.91029) - 0.428934).exp();
+    let alpha = (3.62489 - 8.29288 / (d + 5.52825)).exp();
+    let w = (-0.599085 / (d - 0.641583) - 0.665888).exp();
+    (1.0 - w) * henyey_greenstein(g_hg, cosine) + w * draine(g_d, alpha, cosine)
+}
+
 /// Rayleigh, per steradian.
 pub(super) fn rayleigh(cosine: f64) -> f64 {
     3.0 / (16.0 * PI) * (1.0 + cosine * cosine)
@@ -188,6 +203,7 @@ mod tests {
         assert!((total(&|c| henyey_greenstein(0.9, c)) - 1.0).abs() < 1e-4);
         assert!((total(&|c| henyey_greenstein(-0.5, c)) - 1.0).abs() < 1e-6);
         assert!((total(&rayleigh) - 1.0).abs() < 1e-6);
+        assert!((total(&|c| draine(0.6, 20.0, c)) - 1.0).abs() < 1e-6);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Finds and keeps the files that scenes name.
 
 use super::volume::{self, Limits, SampleConvention, VoxelGrid};
-use super::{embedded, fingerprint, picture};
+use super::{embedded, fingerprint, phase_table, picture};
 use crate::light::Panorama;
 use crate::medium::{BRICK_EDGE, Grid, Lattice, Majorants, Packing, Precision};
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
@@ -46,7 +46,7 @@ impl Library {
         self
     }
 
-    /// The same library with a volume in memory, found by `name` before any file.
+    /// The same library with a volume or a table in memory, found by `name` before any file.
     #[must_use]
     pub fn with_volume(mut self, name: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
         self.in_memory.insert(name.to_owned(), bytes.into());
@@ -248,6 +248,15 @@ impl Resources for Library {
         let read = (Arc::new(panorama), notices);
         keep(&mut self.panoramas, key, read.clone());
         Ok(read)
+    }
+
+    /// Small and quickly read: not kept.
+    fn phase_table(&mut self, file: &str) -> Result<Vec<[f32; 2]>, ResourceError> {
+        let read = match self.in_memory.get(file) {
+            Some(bytes) => phase_table::parse(&String::from_utf8_lossy(bytes), file),
+            None => phase_table::read(&self.locate(file)),
+        };
+        read.map_err(|e| ResourceError(e.to_string()))
     }
 }
 

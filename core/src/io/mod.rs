@@ -4,6 +4,7 @@ pub mod embedded;
 pub mod export;
 pub mod fingerprint;
 mod library;
+pub mod phase_table;
 pub mod picture;
 pub mod scene_file;
 pub mod volume;

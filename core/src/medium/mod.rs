@@ -7,6 +7,7 @@
 //! world. Rays are taken into medium space with their parameter `t` unchanged, so that distances,
 //! and with them coefficients per scene unit, keep their meaning under any placement.
 
+mod albedo;
 mod cell_walk;
 mod coefficients;
 mod density_grid;
@@ -20,6 +21,7 @@ mod outlook;
 mod rgb_grids;
 mod shared_majorant;
 
+pub use albedo::{diffuse_albedo, single_scattering_albedo};
 pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;

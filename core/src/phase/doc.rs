@@ -1,11 +1,12 @@
 //! Phase functions as edited.
 
+use super::table::Angle;
 use serde::{Deserialize, Serialize};
 
 // Variants without parameters are written with braces: serde then refuses unknown keys in them too.
 
 /// Phase function, by the cosine between the directions of propagation before and after.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PhaseDoc {
     /// The same in every direction.
@@ -26,6 +27,30 @@ pub enum PhaseDoc {
     },
     /// Molecules.
     Rayleigh {},
+    /// Dust: a Henyey–Greenstein lobe times 1 + α cos² θ.
+    Draine {
+        /// Sharpness and direction of the lobe, −1 to 1 exclusive.
+        g: f32,
+        /// Weight of cos² θ; 0 is Henyey–Greenstein, 1 Cornette and Shanks.
+        alpha: f32,
+    },
+    /// Droplets of water in visible light.
+    Mie {
+        /// Diameter of the droplets in micrometres, up to 50.
+        diameter_um: f32,
+    },
+    /// Points, linear in cos θ between them and scaled to integrate to 1.
+    Tabulated {
+        /// What the points' first numbers are.
+        #[serde(default)]
+        angle: Angle,
+        /// The points: angle, rising, and value.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        points: Vec<[f32; 2]>,
+        /// A text file that holds the points instead, relative to the scene file.
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        file: String,
+    },
 }
 
 impl Default for PhaseDoc {
@@ -34,15 +59,154 @@ impl Default for PhaseDoc {
     }
 }
 
+/// What a kind of phase function is called, and what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Its name.
+    pub name: &'static str,
+    /// Its name where there is little room.
+    pub short: &'static str,
+    /// Its equation and its source.
+    pub about: &'static str,
+}
+
+/// A number that a kind of phase function has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its key in a scene file.
+    pub key: &'static str,
+    /// Its name for people.
+    pub label: &'static str,
+    /// Its unit, or nothing.
+    pub unit: &'static str,
+    /// The values that make sense.
+    pub range: [f32; 2],
+    /// Whether it is edited by factors rather than by steps.
+    pub logarithmic: bool,
+    /// What it means.
+    pub about: &'static str,
+}
+
+/// Close to ±1 a lobe is a needle that single precision cannot hold.
+const G_MAX: f32 = 0.999;
+
+const fn g(key: &'static str, label: &'static str, about: &'static str) -> Parameter {
+    Parameter { key, label, unit: "", range: [-G_MAX, G_MAX], logarithmic: false, about }
+}
+
+const MEAN: &str = "Mean cosine of the scattering angle, −1 to 1; positive is forward";
+static G: Parameter = g("g", "g", MEAN);
+static G_FORWARD: Parameter = g("g_forward", "First g", MEAN);
+static G_BACKWARD: Parameter = g("g_backward", "Second g", MEAN);
+static FORWARD: Parameter = Parameter {
+    key: "forward",
+    label: "Share of first",
+    unit: "",
+    range: [0.0, 1.0],
+    logarithmic: false,
+    about: "p = share · HG(first g) + (1 − share) · HG(second g)",
+};
+static G_DRAINE: Parameter = g(
+    "g",
+    "g",
+    "Sharpness of the lobe, −1 to 1; positive is forward. The mean cosine is \
+     g (1 + α (3 + 2 g²)/5) / (1 + α (1 + 2 g²)/3)",
+);
+static ALPHA: Parameter = Parameter {
+    key: "alpha",
+    label: "α",
+    unit: "",
+    range: [0.0, 1000.0],
+    logarithmic: true,
+    about: "Weight of cos² θ: 0 is Henyey–Greenstein, 1 is Cornette and Shanks, and with g = 0 Rayleigh",
+};
+static DIAMETER_UM: Parameter = Parameter {
+    key: "diameter_um",
+    label: "Diameter",
+    unit: "µm",
+    range: [0.001, 50.0],
+    logarithmic: true,
+    about: "Diameter of the droplets: haze below 1 µm, fog and clouds 5 to 50 µm",
+};
+
 impl PhaseDoc {
-    /// One of each kind, with its name: where a picker starts, and what is tested.
+    /// One of each kind: where a picker starts, and what is tested.
     #[must_use]
-    pub fn templates() -> Vec<(&'static str, Self)> {
+    pub fn templates() -> Vec<Self> {
         vec![
-            ("Isotropic", Self::Isotropic {}),
-            ("Henyey–Greenstein", Self::HenyeyGreenstein { g: 0.5 }),
-            ("Two lobes", Self::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.7 }),
-            ("Rayleigh", Self::Rayleigh {}),
+            Self::Isotropic {},
+            Self::HenyeyGreenstein { g: 0.5 },
+            Self::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.7 },
+            Self::Rayleigh {},
+            Self::Draine { g: 0.5, alpha: 1.0 },
+            Self::Mie { diameter_um: 10.0 },
+            Self::Tabulated {
+                angle: Angle::Degrees,
+                points: vec![
+                    [0.0, 20.0],
+                    [20.0, 3.0],
+                    [60.0, 0.4],
+                    [120.0, 0.15],
+                    [140.0, 0.5],
+                    [180.0, 0.3],
+                ],
+                file: String::new(),
+            },
         ]
+    }
+
+    /// Which kind it is.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        let [name, short, about] = match self {
+            Self::Isotropic {} => ["Isotropic", "Isotropic", "p = 1 / 4π"],
+            Self::HenyeyGreenstein { .. } => [
+                "Henyey–Greenstein",
+                "HG",
+                "p = (1 − g²) / 4π (1 + g² − 2 g cos θ)^1.5. Henyey and Greenstein 1941",
+            ],
+            Self::TwoLobe { .. } => {
+                ["Two lobes", "Two lobes", "A share of one Henyey–Greenstein lobe, the rest of another"]
+            }
+            Self::Rayleigh {} => ["Rayleigh", "Rayleigh", "Molecules: p = 3 (1 + cos² θ) / 16π"],
+            Self::Draine { .. } => [
+                "Draine",
+                "Draine",
+                "Dust: Henyey–Greenstein times (1 + α cos² θ) / (1 + α (1 + 2 g²)/3). Draine 2003, \
+                 Scattering by Interstellar Dust Grains",
+            ],
+            Self::Mie { .. } => [
+                "Mie, approximate",
+                "Mie",
+                "Droplets of water in visible light: a Henyey–Greenstein and a Draine lobe fitted to Lorenz–Mie \
+                 theory. Jendersie and d'Eon 2023, An Approximate Mie Scattering Function for Fog and Cloud Rendering",
+            ],
+            Self::Tabulated { .. } => [
+                "Tabulated",
+                "Table",
+                "Points of your own, linear in cos θ between them, scaled to integrate to 1",
+            ],
+        };
+        Kind { name, short, about }
+    }
+
+    /// Its numbers, in order.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<(&'static Parameter, f32)> {
+        self.clone().parameters_mut().into_iter().map(|(parameter, value)| (parameter, *value)).collect()
+    }
+
+    /// Its numbers, in order, to be edited.
+    #[must_use]
+    pub fn parameters_mut(&mut self) -> Vec<(&'static Parameter, &mut f32)> {
+        match self {
+            Self::Isotropic {} | Self::Rayleigh {} | Self::Tabulated { .. } => Vec::new(),
+            Self::HenyeyGreenstein { g } => vec![(&G, g)],
+            Self::TwoLobe { g_forward, g_backward, forward } => {
+                vec![(&G_FORWARD, g_forward), (&G_BACKWARD, g_backward), (&FORWARD, forward)]
+            }
+            Self::Draine { g, alpha } => vec![(&G_DRAINE, g), (&ALPHA, alpha)],
+            Self::Mie { diameter_um } => vec![(&DIAMETER_UM, diameter_um)],
+        }
     }
 }

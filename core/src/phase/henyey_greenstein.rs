@@ -27,4 +27,8 @@ impl Lobe for HenyeyGreenstein {
         let theta = PolarAngle::from_one_minus_cos(2.0 * r * r * (1.0 - u) * (1.0 + g * u));
         if self.g < 0.0 { theta.mirrored() } else { theta }
     }
+
+    fn mean_cosine(&self) -> f32 {
+        self.g
+    }
 }

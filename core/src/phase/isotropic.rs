@@ -14,4 +14,8 @@ impl Lobe for Isotropic {
     fn sample(&self, u: f32) -> PolarAngle {
         PolarAngle::from_one_minus_cos(2.0 * u)
     }
+
+    fn mean_cosine(&self) -> f32 {
+        0.0
+    }
 }

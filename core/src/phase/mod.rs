@@ -6,18 +6,25 @@
 //! function here is sampled exactly, so that its value is also its density.
 
 mod doc;
+mod draine;
 mod henyey_greenstein;
 mod isotropic;
+mod mie;
 mod rayleigh;
+mod table;
 mod two_lobe;
 
 use crate::math::{Frame, PolarAngle};
-pub use doc::PhaseDoc;
+pub use doc::{Kind as PhaseKind, Parameter, PhaseDoc};
+pub use table::{Angle, MAX_POINTS, TableError, check as check_table};
 
+use draine::Draine;
 use glam::{Vec2, Vec3};
 use henyey_greenstein::HenyeyGreenstein;
 use isotropic::Isotropic;
+use mie::Mie;
 use rayleigh::Rayleigh;
+use table::Table;
 use two_lobe::TwoLobe;
 
 /// The contract of one phase function.
@@ -26,18 +33,23 @@ trait Lobe {
     fn value(&self, theta: PolarAngle) -> f32;
     /// Draws the scattering angle from a number uniform in [0, 1).
     fn sample(&self, u: f32) -> PolarAngle;
+    /// ∫ p cos θ dω.
+    fn mean_cosine(&self) -> f32;
 }
 
 /// A phase function, ready to be evaluated and sampled.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Phase(Kind);
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Kind {
     Isotropic(Isotropic),
     HenyeyGreenstein(HenyeyGreenstein),
     TwoLobe(TwoLobe),
     Rayleigh(Rayleigh),
+    Draine(Draine),
+    Mie(Mie),
+    Table(Table),
 }
 
 macro_rules! each {
@@ -47,24 +59,39 @@ macro_rules! each {
             Kind::HenyeyGreenstein($lobe) => $body,
             Kind::TwoLobe($lobe) => $body,
             Kind::Rayleigh($lobe) => $body,
+            Kind::Draine($lobe) => $body,
+            Kind::Mie($lobe) => $body,
+            Kind::Table($lobe) => $body,
         }
     };
 }
 
 impl Phase {
-    /// Freezes an edited phase function, whose parameters validation has checked.
+    /// Freezes an edited phase function, whose parameters validation has checked and whose table, if it is in a
+    /// file, has been read into it. A table that makes no sense is isotropic.
     #[must_use]
     pub fn new(doc: &PhaseDoc) -> Self {
-        Self(match *doc {
+        Self(match doc {
             PhaseDoc::Isotropic {} => Kind::Isotropic(Isotropic),
-            PhaseDoc::HenyeyGreenstein { g } => Kind::HenyeyGreenstein(HenyeyGreenstein { g }),
+            PhaseDoc::HenyeyGreenstein { g } => Kind::HenyeyGreenstein(HenyeyGreenstein { g: *g }),
             PhaseDoc::TwoLobe { g_forward, g_backward, forward } => Kind::TwoLobe(TwoLobe {
-                first: HenyeyGreenstein { g: g_forward },
-                second: HenyeyGreenstein { g: g_backward },
-                share: forward,
+                first: HenyeyGreenstein { g: *g_forward },
+                second: HenyeyGreenstein { g: *g_backward },
+                share: *forward,
             }),
             PhaseDoc::Rayleigh {} => Kind::Rayleigh(Rayleigh),
+            PhaseDoc::Draine { g, alpha } => Kind::Draine(Draine::new(*g, *alpha)),
+            PhaseDoc::Mie { diameter_um } => Kind::Mie(Mie::new(*diameter_um)),
+            PhaseDoc::Tabulated { angle, points, .. } => {
+                Table::new(*angle, points).map_or(Kind::Isotropic(Isotropic), Kind::Table)
+            }
         })
+    }
+
+    /// ∫ p cos θ dω.
+    #[must_use]
+    pub fn mean_cosine(&self) -> f32 {
+        each!(self, lobe => lobe.mean_cosine())
     }
 
     /// Value by the cosine of the scattering angle, per steradian: to draw the lobe with.

@@ -20,4 +20,8 @@ impl Lobe for Rayleigh {
         let cosine = (root + z).cbrt() - (root - z).cbrt();
         PolarAngle::from_one_minus_cos(1.0 - cosine.clamp(-1.0, 1.0))
     }
+
+    fn mean_cosine(&self) -> f32 {
+        0.0
+    }
 }

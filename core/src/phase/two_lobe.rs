@@ -25,4 +25,8 @@ impl Lobe for TwoLobe {
             self.second.sample(((u - self.share) / (1.0 - self.share)).min(1.0))
         }
     }
+
+    fn mean_cosine(&self) -> f32 {
+        self.share * self.first.g + (1.0 - self.share) * self.second.g
+    }
 }

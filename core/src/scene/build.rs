@@ -12,7 +12,7 @@ use crate::medium::{
     AlbedoField, AnyMedium, DensityGrid, Emission, ExtinctionField, Grid, Homogeneous, MajorantGrid,
     MajorantPolicy, Majorants, Precision, RgbGrids,
 };
-use crate::phase::Phase;
+use crate::phase::{Phase, PhaseDoc, check_table};
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
 use crate::surface::{OrientedBox, Plane, Rectangle, Role, Shape, Sphere, Surface};
 use glam::{Affine3A, Vec3};
@@ -57,6 +57,12 @@ pub trait Resources {
     /// # Errors
     /// As for [`Self::scalar_grid`].
     fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError>;
+
+    /// The points of a tabulated phase function.
+    ///
+    /// # Errors
+    /// As for [`Self::scalar_grid`].
+    fn phase_table(&mut self, file: &str) -> Result<Vec<[f32; 2]>, ResourceError>;
 }
 
 /// Freezes a document. Spectra, lights and surfaces are rebuilt every time, which takes microseconds;
@@ -69,7 +75,10 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         return Err(SceneError::Invalid(problem));
     }
     let mut notices = Vec::new();
-    let (medium, emission, object_from_unit, mut info) = build_medium(&doc.medium, resources, &mut notices)?;
+    let (phase, phase_points) = build_phase(&doc.medium.phase, resources)?;
+    let (medium, emission, object_from_unit, mut info) =
+        build_medium(&doc.medium, phase.mean_cosine(), resources, &mut notices)?;
+    info.phase_points = phase_points;
     let world_from_unit = placement::world_from_unit(&doc.medium.placement, object_from_unit);
     // Relative to its edges: a tiny box is as good as a large one, a flat one is not.
     let m = world_from_unit.matrix3;
@@ -117,7 +126,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         medium,
         emission,
         medium_from_world: world_from_unit.inverse(),
-        phase: Phase::new(&doc.medium.phase),
+        phase,
         surfaces,
         lights,
         info,
@@ -149,12 +158,26 @@ fn check_optical_depth(doc: &MediumDoc, depth: f32, notices: &mut Vec<String>) -
     Ok(())
 }
 
+/// The phase function, and its points if they come from a file.
+fn build_phase(doc: &PhaseDoc, resources: &mut dyn Resources) -> Result<(Phase, Vec<[f32; 2]>), SceneError> {
+    let PhaseDoc::Tabulated { angle, file, .. } = doc else { return Ok((Phase::new(doc), Vec::new())) };
+    if file.is_empty() {
+        return Ok((Phase::new(doc), Vec::new()));
+    }
+    let failed = |source| SceneError::Resource { path: "medium.phase.file".into(), source };
+    let points = resources.phase_table(file).map_err(failed)?;
+    check_table(*angle, &points).map_err(|e| failed(ResourceError(format!("{file}: {e}"))))?;
+    let read = PhaseDoc::Tabulated { angle: *angle, points: points.clone(), file: file.clone() };
+    Ok((Phase::new(&read), points))
+}
+
 fn coefficient(doc: &SpectrumDoc) -> Spectrum {
     Spectrum::new(doc, Quantity::Coefficient)
 }
 
 fn build_medium(
     doc: &MediumDoc,
+    mean_cosine: f32,
     resources: &mut dyn Resources,
     notices: &mut Vec<String>,
 ) -> Result<(AnyMedium, Option<Emission>, Affine3A, SceneInfo), SceneError> {
@@ -164,7 +187,8 @@ fn build_medium(
     };
     let centred = Affine3A::from_translation(Vec3::splat(-0.5));
     let majorant = MajorantPolicy::new(&doc.majorant);
-    let sigma = coefficient(&doc.extinction).scaled(doc.scale);
+    let (extinction, albedo) = doc.extinction_and_albedo(mean_cosine);
+    let sigma = extinction.scaled(doc.scale);
     let mut info = SceneInfo { max_density: 1.0, mean_density: 1.0, ..SceneInfo::default() };
 
     // The unit cube's place in the file's own space, if the file says one.
@@ -192,7 +216,7 @@ fn build_medium(
         }
     };
     let albedo = match &doc.albedo_grid {
-        None => AlbedoField::Uniform(coefficient(&doc.albedo)),
+        None => AlbedoField::Uniform(albedo),
         Some(grid) => {
             let read = resources.rgb_grid(grid, doc.precision).map_err(at("medium.albedo_grid"))?;
             if read.grid.max().iter().any(|a| *a > 1.0) {

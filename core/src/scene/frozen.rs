@@ -46,6 +46,8 @@ pub struct Scene {
 pub struct SceneInfo {
     /// Samples per axis of the density grid.
     pub grid_size: Option<[usize; 3]>,
+    /// Points of the phase function, if they were read from a file.
+    pub phase_points: Vec<[f32; 2]>,
     /// Largest density.
     pub max_density: f32,
     /// Mean density over the box.

@@ -5,6 +5,7 @@
 //! generic over [`Components`], so both modes are the same code.
 
 mod blackbody;
+mod combined;
 mod components;
 mod doc;
 mod grey;
@@ -16,6 +17,7 @@ mod shape;
 mod wavelengths;
 
 pub use blackbody::HOTTEST_K;
+pub use combined::Rule;
 pub use components::{Components, Radiance};
 pub use doc::{ControlPoint, Outside, SpectrumDoc};
 pub use grey::{FilmColour, Grey};

@@ -1,5 +1,6 @@
 //! A spectrum as the renderer evaluates it.
 
+use super::combined::{Combined, Rule};
 use super::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, observer, presets};
 use glam::Vec3;
 
@@ -30,6 +31,7 @@ enum Shape {
     Points { points: Vec<ControlPoint>, outside: Outside },
     Rgb(Vec3),
     RgbRadiance(Vec3),
+    Combined(Box<Combined>),
 }
 
 impl Spectrum {
@@ -54,7 +56,7 @@ impl Spectrum {
         let rgb = match &shape {
             Shape::Constant(value) => Vec3::splat(*value),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb,
-            Shape::Points { .. } => observer::band_means(|lambda| shape.at(lambda)),
+            Shape::Points { .. } | Shape::Combined(_) => observer::band_means(|lambda| shape.at(lambda)),
         };
         let film = shape.film_colour();
         Self { shape, rgb, film }
@@ -67,6 +69,22 @@ impl Spectrum {
         Self { film: shape.film_colour(), shape, rgb: Vec3::splat(value) }
     }
 
+    /// `rule` of two spectra, at every wavelength and in every component of RGB mode.
+    #[must_use]
+    pub fn combined(a: Self, b: Self, rule: Rule) -> Self {
+        if let (Shape::Constant(a), Shape::Constant(b)) = (&a.shape, &b.shape) {
+            return Self::constant(rule(*a, *b));
+        }
+        let rgb = Vec3::from_array(std::array::from_fn(|c| rule(a.rgb[c], b.rgb[c])));
+        let shape = Shape::Combined(Box::new(Combined { a, b, rule, factor: 1.0 }));
+        Self { rgb, film: shape.film_colour(), shape }
+    }
+
+    /// The wavelengths between which it is linear, beside the rows of the sensor's table.
+    pub(super) fn knots(&self) -> Vec<f32> {
+        self.shape.knots()
+    }
+
     /// Every value multiplied by `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f32) -> Self {
@@ -76,6 +94,7 @@ impl Spectrum {
             Shape::Constant(value) => *value *= factor,
             Shape::Points { points, .. } => points.iter_mut().for_each(|p| p.value *= factor),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb *= factor,
+            Shape::Combined(combined) => combined.factor *= factor,
         }
         self
     }
@@ -117,6 +136,7 @@ impl Spectrum {
                 }
             }
             Shape::Rgb(rgb) => max = rgb.max_element(),
+            Shape::Combined(combined) => max = combined.largest(),
             Shape::RgbRadiance(_) => {
                 let mut lambda = LAMBDA_MIN_NM;
                 while lambda <= LAMBDA_MAX_NM {
@@ -152,11 +172,15 @@ impl Shape {
     }
 
     fn film_colour(&self) -> Vec3 {
-        let cuts = match self {
+        observer::film_colour(|lambda| self.at(lambda), self.knots().into_iter())
+    }
+
+    fn knots(&self) -> Vec<f32> {
+        match self {
             Self::Points { points, .. } => points.iter().map(|p| p.lambda_nm).collect(),
+            Self::Combined(combined) => combined.knots(),
             Self::Constant(_) | Self::Rgb(_) | Self::RgbRadiance(_) => Vec::new(),
-        };
-        observer::film_colour(|lambda| self.at(lambda), cuts.into_iter())
+        }
     }
 
     fn at(&self, lambda_nm: f32) -> f32 {
@@ -165,6 +189,7 @@ impl Shape {
             Self::Points { points, outside } => interpolate(points, *outside, lambda_nm),
             Self::Rgb(rgb) => observer::basis(lambda_nm).dot(*rgb),
             Self::RgbRadiance(rgb) => observer::basis(lambda_nm).dot(*rgb) * observer::daylight(lambda_nm),
+            Self::Combined(combined) => combined.at(lambda_nm),
         }
     }
 }

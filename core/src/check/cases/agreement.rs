@@ -126,6 +126,20 @@ visible = false
 max_depth = 3
 ";
 
+const FOG: &str = "
+[medium]
+coefficients = { kind = \"mean-free-path-colour\", mean_free_path = \"430:0.1, 600:0.4\", colour = { rgb = [0.8, 0.6, 0.4] } }
+phase = { kind = \"mie\", diameter_um = 1.2 }
+[[lights]]
+kind = \"sun\"
+toward = [0.3, 0.8, -0.5]
+angular_diameter_deg = 90.0
+[[lights]]
+kind = \"environment\"
+radiance = \"440:1.4, 640:0.7\"
+scale = 0.3
+";
+
 /// A sky with one bright texel, and grids of two resolutions with components that are zero.
 fn files() -> Library {
     let mut texels = vec![[0.4, 0.5, 0.8]; 16 * 8];
@@ -219,6 +233,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         }),
         cloud,
         scene("inside", INSIDE)?,
+        scene("fog", &format!("{ASIDE}{FOG}"))?,
         grids.varied("agreement/rgb-grids-rgb", |d| d.estimator.mode = Mode::Rgb),
         grids,
         scene("zero-ends", &format!("{ASIDE}{NO_EXTINCTION_AT_THE_ENDS}"))?,

@@ -8,7 +8,7 @@
 use super::super::{Answer, Case, CheckError, Family, truth};
 use super::ASIDE;
 use crate::io::Library;
-use crate::scene::{Absorption, Mode, PhaseDoc};
+use crate::scene::{Absorption, Angle, Mode, PhaseDoc};
 
 pub(super) const FAMILY: Family = Family {
     id: "furnace",
@@ -93,11 +93,16 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             Mode::Rgb,
         ),
     ];
+    // A bright ring with nothing around it.
+    let corona = vec![[0.0, 20.0], [10.0, 0.0], [15.0, 0.0], [25.0, 4.0], [40.0, 0.2], [180.0, 0.1]];
     for (name, phase) in [
         ("hg-forward", PhaseDoc::HenyeyGreenstein { g: 0.9 }),
         ("hg-backward", PhaseDoc::HenyeyGreenstein { g: -0.5 }),
         ("two-lobe", PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.3, forward: 0.6 }),
         ("rayleigh", PhaseDoc::Rayleigh {}),
+        ("draine", PhaseDoc::Draine { g: -0.4, alpha: 30.0 }),
+        ("mie", PhaseDoc::Mie { diameter_um: 0.8 }),
+        ("table", PhaseDoc::Tabulated { angle: Angle::Degrees, points: corona, file: String::new() }),
     ] {
         let phased = grid.varied(format!("furnace/{name}"), |doc| {
             doc.medium.phase = phase;

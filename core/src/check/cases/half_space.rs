@@ -15,7 +15,7 @@
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
 use super::AXIS;
-use crate::scene::Absorption;
+use crate::scene::{Absorption, CoefficientsDoc};
 use crate::spectrum::SpectrumDoc;
 
 pub(super) const FAMILY: Family = Family {
@@ -42,6 +42,17 @@ fn escape(albedo: f64) -> f64 {
         h = mu.iter().map(|m| at(*m, &h)).collect();
     }
     1.0 - root * at(1.0, &h)
+}
+
+/// The albedo of an isotropic half-space that reflects the share A of diffuse light, by van de Hulst's formula
+/// A = (1 − s)(1 − 0.139 s)/(1 + 1.17 s), s = √(1 − albedo), solved by bisection.
+fn albedo_of(colour: f64) -> f64 {
+    let (mut lo, mut hi) = (0.0f64, 1.0f64);
+    for _ in 0..60 {
+        let s = 0.5 * (lo + hi);
+        if (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s) > colour { lo = s } else { hi = s }
+    }
+    1.0 - lo * lo
 }
 
 fn cases() -> Result<Vec<Case>, CheckError> {
@@ -75,7 +86,25 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     });
     let nm = toml("\"430:2, 540:40, 600:1\"", &points.toml(), "spectral");
     let nm = Case::new("half-space/spectral", &nm, Answer::uniform(seen, Layout::WHOLE).within(2e-4))?;
+    // The same coefficients given otherwise: σa and σs; free paths and what the half-space would reflect.
+    let sums = rgb.varied("half-space/absorption-scattering", |doc| {
+        doc.medium.coefficients = Some(CoefficientsDoc::AbsorptionScattering {
+            absorption: SpectrumDoc::Rgb([0.05, 70.0, 2.0]),
+            scattering: SpectrumDoc::Rgb([0.95, 30.0, 8.0]),
+        });
+    });
+    let colour = [0.6, 0.1, 0.3];
+    let coloured = rgb
+        .varied("half-space/colour", |doc| {
+            doc.medium.coefficients = Some(CoefficientsDoc::MeanFreePathColour {
+                mean_free_path: SpectrumDoc::Rgb([1.0, 0.01, 0.1]),
+                colour: SpectrumDoc::Rgb(colour.map(|c| c as f32)),
+            });
+        })
+        .answered(Answer::uniform(colour.map(|c| escape(albedo_of(c))), Layout::WHOLE));
     Ok(vec![
+        sums,
+        coloured,
         rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue),
         rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1)),
         nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2)),

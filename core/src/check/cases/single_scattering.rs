@@ -13,7 +13,7 @@ use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::AXIS;
 use crate::io::Library;
-use crate::scene::PhaseDoc;
+use crate::scene::{Angle, PhaseDoc};
 use glam::DVec3;
 
 pub(super) const FAMILY: Family = Family {
@@ -131,12 +131,17 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let behind = DVec3::new(0.6, 0.1, -0.8);
     let before = DVec3::new(0.6, 0.1, 0.8);
     let hg = |g| PhaseDoc::HenyeyGreenstein { g };
+    let points = vec![[-1.0, 1.0], [0.0, 1.0], [1.0, 3.0]];
+    let table = PhaseDoc::Tabulated { angle: Angle::Cosine, points, file: String::new() };
     type Phase = (&'static str, PhaseDoc, (DVec3, f64), fn(f64) -> f64);
-    let phases: [Phase; 4] = [
+    let phases: [Phase; 7] = [
         ("isotropic", PhaseDoc::Isotropic {}, (before, 110.0), |_| 0.25 / std::f64::consts::PI),
         ("hg0.9", hg(0.9), (behind, 60.0), |c| truth::henyey_greenstein(0.9, c)),
         ("hg-0.9", hg(-0.9), (before, 60.0), |c| truth::henyey_greenstein(-0.9, c)),
         ("rayleigh", PhaseDoc::Rayleigh {}, (behind, 110.0), truth::rayleigh),
+        ("draine", PhaseDoc::Draine { g: 0.6, alpha: 5.0 }, (behind, 110.0), |c| truth::draine(0.6, 5.0, c)),
+        ("mie", PhaseDoc::Mie { diameter_um: 6.0 }, (before, 150.0), |c| truth::droplets(6.0, c)),
+        ("table", table, (behind, 110.0), |c| (1.0 + 2.0 * c.max(0.0)) / (6.0 * std::f64::consts::PI)),
     ];
     for (name, doc, (toward, diameter), phase) in phases {
         let single = sigma

@@ -1,5 +1,6 @@
 //! The medium as edited.
 
+use super::CoefficientsDoc;
 use crate::medium::{Interpolation, MajorantDoc, Precision};
 use crate::phase::PhaseDoc;
 use crate::spectrum::SpectrumDoc;
@@ -17,7 +18,10 @@ pub struct MediumDoc {
     pub extinction: SpectrumDoc,
     /// Scattered fraction of what is extinguished, 0 to 1.
     pub albedo: SpectrumDoc,
-    /// Replaces `albedo` by an RGB grid over the same box.
+    /// Replaces `extinction` and `albedo` by another way to give them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coefficients: Option<CoefficientsDoc>,
+    /// Replaces the albedo by an RGB grid over the same box.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub albedo_grid: Option<GridRef>,
     /// Where the density comes from.
@@ -43,6 +47,7 @@ impl Default for MediumDoc {
             scale: 1.0,
             extinction: SpectrumDoc::Constant(4.0),
             albedo: SpectrumDoc::Constant(0.9),
+            coefficients: None,
             albedo_grid: None,
             density: DensityDoc::default(),
             precision: Precision::F32,

@@ -4,6 +4,7 @@
 //! Lengths are in scene units, angles in degrees, wavelengths in nanometres, extinction per scene unit.
 
 mod camera;
+mod coefficients;
 mod compare;
 mod estimator;
 mod light;
@@ -14,8 +15,9 @@ mod render;
 pub use crate::film::display::{ToneCurve, ViewDoc};
 pub use crate::light::LightSelection;
 pub use crate::medium::{MajorantDoc, WhenExceeded};
-pub use crate::phase::PhaseDoc;
+pub use crate::phase::{Angle, PhaseDoc};
 pub use camera::{CameraDoc, FilmDoc};
+pub use coefficients::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS};
 pub use compare::{
     Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
 };
@@ -110,6 +112,9 @@ impl SceneDoc {
         let emission = self.medium.emission.as_mut();
         if let Some(grid) = emission.and_then(|e| e.temperature.as_mut()) {
             files.push(&mut grid.file);
+        }
+        if let PhaseDoc::Tabulated { file, .. } = &mut self.medium.phase {
+            files.push(file);
         }
         for light in &mut self.lights {
             if let LightDoc::EnvironmentMap { file, .. } = light {

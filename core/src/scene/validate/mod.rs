@@ -1,9 +1,9 @@
 //! Refuses documents that make no sense, naming the key, the value and the cure.
 
 mod compare;
+mod medium;
 
-use super::{LightDoc, MediumDoc, ObjectDoc, PhaseDoc, SceneDoc};
-use crate::medium::MAX_MAJORANT_CELLS;
+use super::{LightDoc, ObjectDoc, SceneDoc};
 use crate::spectrum::SpectrumDoc;
 use glam::Vec3;
 use std::fmt;
@@ -121,7 +121,7 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
         "camera.fov_deg",
         format!("is {}; a field of view lies between 0 and 179 degrees", camera.fov_deg),
     );
-    medium(&mut c, &doc.medium);
+    medium::medium(&mut c, &doc.medium);
     for (i, light) in doc.lights.iter().enumerate() {
         check_light(&mut c, &format!("lights[{i}]"), light);
     }
@@ -171,50 +171,6 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
         "lies between 0.1 and 10: leave it out for the sRGB curve",
     );
     c.problems
-}
-
-fn medium(c: &mut Checker, doc: &MediumDoc) {
-    c.range("medium.scale", doc.scale, 0.0, 1e6);
-    c.spectrum("medium.extinction", &doc.extinction, 1e6);
-    c.spectrum("medium.albedo", &doc.albedo, 1.0);
-    c.check(
-        doc.majorant.factor >= 0.01 && doc.majorant.factor <= 1000.0,
-        "medium.majorant.factor",
-        format!("is {}; it lies between 0.01 and 1000, 1 is tight", doc.majorant.factor),
-    );
-    if let Some(cells) = doc.majorant.resolution {
-        c.check(
-            (1..=MAX_MAJORANT_CELLS).contains(&cells),
-            "medium.majorant.resolution",
-            format!("is {cells}; there are 1 to {MAX_MAJORANT_CELLS} cells per axis"),
-        );
-    }
-    if let Some(emission) = &doc.emission {
-        let hottest = crate::spectrum::HOTTEST_K;
-        c.check(
-            emission.kelvin > 0.0 && emission.kelvin <= 1e9,
-            "medium.emission.kelvin",
-            format!("is {}; it must be positive. Bodies above {hottest} K shine as that", emission.kelvin),
-        );
-        c.range("medium.emission.scale", emission.scale, 0.0, 1e9);
-    }
-    match doc.phase {
-        PhaseDoc::Isotropic {} | PhaseDoc::Rayleigh {} => {}
-        PhaseDoc::HenyeyGreenstein { g } => c.range("medium.phase.g", g, -0.999, 0.999),
-        PhaseDoc::TwoLobe { g_forward, g_backward, forward } => {
-            c.range("medium.phase.g_forward", g_forward, -0.999, 0.999);
-            c.range("medium.phase.g_backward", g_backward, -0.999, 0.999);
-            c.range("medium.phase.forward", forward, 0.0, 1.0);
-        }
-    }
-    let p = &doc.placement;
-    c.finite("medium.placement.scale", &p.scale);
-    c.finite("medium.placement.rotate_deg", &p.rotate_deg);
-    c.finite("medium.placement.translate", &p.translate);
-    c.check(p.fit.is_none_or(|fit| fit > 0.0 && fit <= 1e9), "medium.placement.fit", "must be positive");
-    if let Some(matrix) = p.matrix {
-        c.finite("medium.placement.matrix", &matrix.concat());
-    }
 }
 
 fn check_light(c: &mut Checker, path: &str, doc: &LightDoc) {

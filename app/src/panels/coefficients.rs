@@ -1,0 +1,90 @@
+//! How the medium's coefficients are given, and the spectra of each way.
+
+use super::{Cx, phase};
+use crate::widgets::{SpectrumField, hint, segmented, spectrum_editor};
+use egui::Ui;
+use majorant_core::scene::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS, MediumDoc};
+use majorant_core::spectrum::{Quantity, SpectrumDoc};
+
+/// Chooses how coefficients are given; the medium stays what it is.
+pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    let mut kind = cx.draft.medium.coefficients_kind();
+    let options = [
+        (
+            CoefficientsKind::ExtinctionAlbedo,
+            "σt, albedo",
+            "Extinction σt and the share α of it that is scattered",
+        ),
+        (
+            CoefficientsKind::AbsorptionScattering,
+            "σa, σs",
+            "Absorption and scattering coefficients: σt = σa + σs, α = σs / σt",
+        ),
+        (
+            CoefficientsKind::MeanFreePathColour,
+            "Path, colour",
+            "Mean free path 1/σt, and the share of diffuse light that a half-space reflects. The albedo follows from \
+             it by van de Hulst's formula and the phase function's mean cosine",
+        ),
+    ];
+    if segmented(ui, "Coefficients", &mut kind, &options) {
+        let mean_cosine = phase::current(cx).mean_cosine();
+        cx.draft.medium = cx.draft.medium.given_by(kind, mean_cosine);
+    }
+}
+
+/// The spectra of a medium that is not given by extinction and albedo; whether it is one.
+pub(super) fn spectra_ui(ui: &mut Ui, cx: &mut Cx<'_>) -> bool {
+    if cx.draft.medium.coefficients.is_none() {
+        return false;
+    }
+    let mean_cosine = phase::current(cx).mean_cosine();
+    let Some(doc) = &mut cx.draft.medium.coefficients else { return false };
+    let opened = opened(&cx.opened.medium, doc, mean_cosine);
+    match doc {
+        CoefficientsDoc::AbsorptionScattering { absorption, scattering } => {
+            let tip = "Absorption coefficient of density 1, per scene unit";
+            edit(ui, ("Absorption", tip, None), &opened[0], absorption);
+            let tip = "Scattering coefficient of density 1, per scene unit";
+            edit(ui, ("Scattering", tip, None), &opened[1], scattering);
+        }
+        CoefficientsDoc::MeanFreePathColour { mean_free_path, colour } => {
+            let tip = "Mean distance between collisions in density 1, scene units";
+            edit(ui, ("Mean free path", tip, Some(MEAN_FREE_PATHS[1])), &opened[0], mean_free_path);
+            let tip = "Share of diffuse light that a half-space of the medium reflects";
+            edit(ui, ("Colour of the medium", tip, Some(1.0)), &opened[1], colour);
+            hint(
+                ui,
+                &format!(
+                    "The albedo that gives this colour depends on the phase function, whose mean cosine is \
+                     {mean_cosine:.3}."
+                ),
+            );
+        }
+    }
+    true
+}
+
+/// The two spectra when the scene was opened, given the present way.
+fn opened(medium: &MediumDoc, as_now: &CoefficientsDoc, mean_cosine: f32) -> [SpectrumDoc; 2] {
+    let kind = match as_now {
+        CoefficientsDoc::AbsorptionScattering { .. } => CoefficientsKind::AbsorptionScattering,
+        CoefficientsDoc::MeanFreePathColour { .. } => CoefficientsKind::MeanFreePathColour,
+    };
+    match medium.given_by(kind, mean_cosine).coefficients {
+        Some(CoefficientsDoc::AbsorptionScattering { absorption: a, scattering: b })
+        | Some(CoefficientsDoc::MeanFreePathColour { mean_free_path: a, colour: b }) => [a, b],
+        None => [medium.extinction.clone(), medium.albedo.clone()],
+    }
+}
+
+fn edit(
+    ui: &mut Ui,
+    (name, tip, max): (&str, &str, Option<f32>),
+    opened: &SpectrumDoc,
+    doc: &mut SpectrumDoc,
+) {
+    ui.strong(name);
+    let quantity = Quantity::Coefficient;
+    spectrum_editor(ui, &SpectrumField { name, unit: "", max, tip, opened, quantity, majorant: None }, doc);
+}
