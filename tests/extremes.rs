@@ -52,7 +52,9 @@ fn nothing_overflows_at_optical_depth_10_000() {
             let mean = paths.iter().map(|p| f64::from(p.rgb.element_sum()) / 3.0).sum::<f64>() / 256.0;
             let longest = paths.iter().map(|p| p.lookups).max().unwrap();
             println!("{} {mode:?}: mean {mean:.3}, {longest} look-ups in the longest path", entry.id);
-            assert!(mean > 0.1 && longest > 3000, "{} {mode:?}: {mean} {longest}", entry.id);
+            // Nothing follows from the mean of what has no variance.
+            let judged = (entry.infinite_variance)(&doc).is_none();
+            assert!(!judged || (mean > 0.1 && longest > 3000), "{} {mode:?}: {mean} {longest}", entry.id);
         }
     }
 }

@@ -21,7 +21,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{DensityDoc, Scene, SceneDoc};
-use crate::spectrum::{Components, Quantity, Radiance, Sampled, Spectrum};
+use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transport::{Trace, Vertex, Wanted, World};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -44,8 +44,8 @@ pub(super) const ENTRY: Entry = Entry {
 /// Delta tracking has no weight for collisions that exceed the majorant.
 /// Where components differ, the weight of a thin one is a product of e^((mean − μ) t), which nothing bounds.
 fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
-    let flat = |spectrum| Spectrum::new(spectrum, Quantity::Coefficient).is_flat();
-    let coloured = is_uniform(doc) && !flat(&doc.medium.extinction);
+    let (extinction, _) = doc.medium.extinction_and_albedo(0.0);
+    let coloured = is_uniform(doc) && !extinction.is_flat();
     coloured.then_some("flights by the mean extinction give thin components weights that nothing bounds")
 }
 

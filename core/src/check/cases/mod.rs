@@ -13,7 +13,9 @@ mod single_scattering;
 mod thermal;
 
 use super::{Case, CheckError, Family};
+use crate::estimator::{Axis, Entry, REGISTRY};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// Every family, the quickest to understand first.
 pub static FAMILIES: &[Family] = &[
@@ -28,6 +30,10 @@ pub static FAMILIES: &[Family] = &[
     agreement::FAMILY,
     oracle::FAMILY,
 ];
+
+/// Estimators that connect to lights.
+static CONNECTING: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.unused(Axis::Lights).is_none()).copied().collect());
 
 /// The cases of a usual look, or of a thorough one.
 ///
