@@ -17,6 +17,7 @@ use super::{
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
+use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{EventDensities, PathWeights, Trace, Vertex, Weights, World};
 
@@ -32,10 +33,17 @@ pub(super) const ENTRY: Entry = Entry {
         NO_CONNECTIONS,
         NOTHING_TO_ESTIMATE,
     ],
-    infinite_variance: |_| None,
+    infinite_variance,
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralTracking>,
 };
+
+/// Probabilities by the largest components sum to more than one before they are normalised: each event may raise the
+/// weights, and nothing bounds how often.
+fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
+    let by_largest = doc.estimator.tracking == Tracking::Maximum;
+    by_largest.then_some("drawn by the largest component, weights may grow at every event")
+}
 
 pub(super) struct SpectralTracking;
 
