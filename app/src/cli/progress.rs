@@ -2,6 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use majorant_core::film::Snapshot;
+use majorant_core::io::Loading;
 use std::io::IsTerminal;
 
 /// Shows how far a render is, by samples or by seconds.
@@ -36,6 +37,12 @@ impl Progress {
         let done = by_samples.max(by_time).clamp(0.0, 1.0);
         self.bar.set_position((done * 1000.0) as u64);
         self.bar.set_message(format!("{} spp", snapshot.spp));
+    }
+
+    /// A file is being read before anything is rendered.
+    pub fn read(&self, loading: &Loading) {
+        self.bar.set_position((loading.fraction * 1000.0) as u64);
+        self.bar.set_message(format!("reading {}", loading.file));
     }
 
     pub fn finish(&self) {

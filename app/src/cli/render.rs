@@ -8,7 +8,8 @@ use majorant_core::scene::{Limits, SceneDoc};
 use majorant_core::session::{Job, Role, Session, Status, ViewId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
@@ -108,6 +109,9 @@ fn writer(path: &Path) -> Result<Writer, Failure> {
     }
 }
 
+/// Between two looks at how far the reading of a file is.
+const READING: Duration = Duration::from_millis(50);
+
 fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc<Snapshot>, Failure> {
     let progress = Progress::new(doc.render.spp, doc.render.seconds);
     // One waiting wake-up is enough: the state is read anew at each.
@@ -122,6 +126,9 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
         if let Some(snapshot) = &state.snapshot {
             progress.show(snapshot);
         }
+        if let Some(loading) = &state.loading {
+            progress.read(loading);
+        }
         match (state.status, state.snapshot) {
             (Status::Failed(message), _) => return Err(Failure::Message(message)),
             (Status::Finished, Some(snapshot)) => {
@@ -129,6 +136,13 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
                 options::print_notes(&state.notices);
                 return Ok(snapshot);
             }
+            // Reading a file wakes nobody.
+            (Status::Building, _) => match woken.recv_timeout(READING) {
+                Ok(()) | Err(RecvTimeoutError::Timeout) => {}
+                Err(error @ RecvTimeoutError::Disconnected) => {
+                    return Err(Failure::Message(error.to_string()));
+                }
+            },
             _ => woken.recv()?,
         }
     }

@@ -119,6 +119,7 @@ mod tests {
         ViewState {
             generation: 3,
             status: Status::Rendering,
+            loading: None,
             snapshot: Some(Arc::new(snapshot)),
             notices: Vec::new(),
             first_picture_seconds: None,

@@ -51,7 +51,13 @@ impl LabApp {
         let rate = stats.spp_per_second.map_or_else(String::new, |r| format!("   {} spp/s", count(r)));
         match &self.state.status {
             Status::Empty => (palette.weak, "Nothing to render".into()),
-            Status::Building => (palette.accent, "Building the scene".into()),
+            Status::Building => {
+                let text = self.state.loading.as_ref().map_or_else(
+                    || "Building the scene".into(),
+                    |l| format!("Reading {}   {:.0} %", l.file, 100.0 * l.fraction),
+                );
+                (palette.accent, text)
+            }
             Status::Rendering => {
                 let limit = self.doc().render.spp.map_or_else(String::new, |n| format!(" of {n}"));
                 (palette.accent, format!("Rendering   {}{limit} spp{rate}", stats.spp))

@@ -44,7 +44,12 @@ impl LabApp {
             panel.show(ui, |ui| self.column_ui(ui, Column::Method, &mut draft, &mut commands));
         }
         let mut camera = None;
-        CentralPanel::no_frame().show(ui, |ui| camera = self.wall_ui(ui, &whole, &mut commands));
+        let mut pictures = ui.available_rect_before_wrap();
+        CentralPanel::no_frame().show(ui, |ui| {
+            pictures = ui.max_rect();
+            camera = self.wall_ui(ui, &whole, &mut commands);
+        });
+        self.loading_ui(ui.ctx(), pictures);
 
         let name = self.name();
         dialog_ui(ui.ctx(), &mut self.dialog, &name, &mut commands);

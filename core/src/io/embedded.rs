@@ -35,6 +35,7 @@ pub static SCENES: &[EmbeddedScene] = scenes![
     "cloud-sidelit",
     "homogeneous-absorption",
     "fire",
+    "lantern",
     "furnace",
 ];
 

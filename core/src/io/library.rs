@@ -1,7 +1,7 @@
 //! Finds and keeps the files that scenes name.
 
 use super::volume::{self, Limits, SampleConvention, VoxelGrid};
-use super::{embedded, fingerprint, phase_table, picture};
+use super::{Progress, embedded, fingerprint, phase_table, picture};
 use crate::light::Panorama;
 use crate::medium::{BRICK_EDGE, Grid, Lattice, Majorants, Packing, Precision};
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
@@ -33,6 +33,7 @@ pub struct Library {
     in_memory: BTreeMap<String, Arc<[u8]>>,
     pictures_in_memory: BTreeMap<String, Arc<Panorama>>,
     digests: HashMap<Key, String>,
+    progress: Progress,
 }
 
 /// Files of one kind that are kept; a student flips between a few clouds.
@@ -58,6 +59,12 @@ impl Library {
     pub fn with_panorama(mut self, name: &str, panorama: Panorama) -> Self {
         self.pictures_in_memory.insert(name.to_owned(), Arc::new(panorama));
         self
+    }
+
+    /// How far the reading of a volume is.
+    #[must_use]
+    pub fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     /// Where a file that a scene names lies.
@@ -92,13 +99,28 @@ impl Library {
         digest
     }
 
+    /// Reads a volume and makes a grid of it, saying how far it is.
+    fn read_and_place<const C: usize>(
+        &self,
+        key: &Key,
+        file: &str,
+        precision: Precision,
+    ) -> Result<PlacedGrid<C>, ResourceError> {
+        self.progress.begin(file);
+        let placed = self.read(key, file).and_then(|voxels| place(voxels, &key.path, precision));
+        self.progress.end();
+        placed
+    }
+
     fn read(&self, key: &Key, file: &str) -> Result<VoxelGrid, ResourceError> {
         if file.is_empty() {
             return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
         let grid = key.grid.as_deref();
+        // Bricks and what else follows take about as long as a fifth of the rest.
+        let watch = |share: f64| self.progress.at(READING * share);
         let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
-            Some(bytes) => volume::read_volume_bytes(bytes, file, grid, &self.limits),
+            Some(bytes) => volume::read_volume_bytes_watched(bytes, file, grid, &self.limits, &watch),
             None if file.starts_with(embedded::PREFIX) => {
                 let names: Vec<_> = embedded::VOLUMES.iter().map(|v| v.name).collect();
                 return Err(ResourceError(format!(
@@ -106,13 +128,16 @@ impl Library {
                     names.join(", ")
                 )));
             }
-            None => volume::read_volume(&key.path, grid, &self.limits),
+            None => volume::read_volume_watched(&key.path, grid, &self.limits, &watch),
         };
         let voxels = read.map_err(|e| ResourceError(e.to_string()))?;
         volume::validate_density(&voxels, &key.path).map_err(|e| ResourceError(e.to_string()))?;
         Ok(voxels)
     }
 }
+
+/// Share of the work of a volume that reading it is; the rest goes into bricks.
+const READING: f64 = 0.8;
 
 /// Keeps a new entry, making room first.
 fn keep<K: Eq + Hash, V>(map: &mut HashMap<K, V>, key: K, value: V) {
@@ -213,7 +238,7 @@ impl Resources for Library {
         if let Some(kept) = self.scalar.get(&key) {
             return Ok(kept.clone());
         }
-        let placed = place(self.read(&key.0, &grid.file)?, &key.0.path, precision)?;
+        let placed = self.read_and_place(&key.0, &grid.file, precision)?;
         keep(&mut self.scalar, key, placed.clone());
         Ok(placed)
     }
@@ -223,7 +248,7 @@ impl Resources for Library {
         if let Some(kept) = self.rgb.get(&key) {
             return Ok(kept.clone());
         }
-        let placed = place(self.read(&key.0, &grid.file)?, &key.0.path, precision)?;
+        let placed = self.read_and_place(&key.0, &grid.file, precision)?;
         keep(&mut self.rgb, key, placed.clone());
         Ok(placed)
     }
@@ -305,5 +330,35 @@ mod tests {
         assert_eq!(field(&doc, &mut library), (density, bounds));
         doc.medium.precision = Precision::F16;
         assert_ne!(field(&doc, &mut library).0, density);
+    }
+
+    #[test]
+    fn reading_tells_how_far_it_is() {
+        let told = std::cell::RefCell::new(Vec::new());
+        let watch = |share| told.borrow_mut().push(share);
+        let bytes = embedded::volume("embedded:plume.vdb").expect("our plume");
+        volume::read_volume_bytes_watched(bytes, "plume.vdb", None, &Limits::default(), &watch).expect("it");
+        let told = told.into_inner();
+        assert!(told.len() > 8 && told.windows(2).all(|pair| pair[0] <= pair[1]), "{told:?}");
+        assert_eq!(told.last(), Some(&1.0));
+
+        // Whoever waits sees the file by name, and nothing once it is read.
+        let mut library = Library::default();
+        let progress = library.progress().clone();
+        let seen = std::thread::scope(|scope| {
+            let reading = scope.spawn(|| {
+                let grid = GridRef { file: "embedded:cloud.vdb".into(), grid: None };
+                library.scalar_grid(&grid, Precision::F32).map(|_| ())
+            });
+            let mut seen = Vec::new();
+            while !reading.is_finished() {
+                seen.extend(progress.loading());
+            }
+            reading.join().expect("no panic").expect("our cloud");
+            seen
+        });
+        assert!(seen.iter().all(|l| l.file == "embedded:cloud.vdb"), "{seen:?}");
+        assert!(seen.windows(2).all(|pair| pair[0].fraction <= pair[1].fraction));
+        assert_eq!(progress.loading(), None);
     }
 }

@@ -6,7 +6,9 @@ pub mod fingerprint;
 mod library;
 pub mod phase_table;
 pub mod picture;
+mod progress;
 pub mod scene_file;
 pub mod volume;
 
 pub use library::Library;
+pub use progress::{Loading, Progress};

@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn a_panicking_worker_becomes_a_status_and_the_coordinator_lives_on() {
-        let mailbox = Mailbox::new(Box::new(|| {}));
+        let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
         let (mut coordinator, id) = with_kernel(&mailbox, breaks);
         coordinator.advance_next();
         let Status::Failed(message) = mailbox.state(id).status else { panic!("it should have failed") };
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn samples_that_are_not_finite_are_counted_and_located() {
-        let mailbox = Mailbox::new(Box::new(|| {}));
+        let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
         let (mut coordinator, id) = with_kernel(&mailbox, not_a_number);
         coordinator.advance_next();
         let first = mailbox.state(id).snapshot.unwrap();
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn a_start_that_nobody_waits_for_is_not_built() {
-        let (mailbox, id) = (Mailbox::new(Box::new(|| {})), ViewId(0));
+        let (mailbox, id) = (Mailbox::new(Box::new(|| {}), Library::default().progress().clone()), ViewId(0));
         let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::Contender };
         let keeper = Keeper::new(Library::default());
         let mut coordinator = Coordinator {

@@ -3,6 +3,7 @@
 use super::active::Active;
 use super::{Job, Status, ViewId, ViewState};
 use crate::film::Snapshot;
+use crate::io::Progress;
 use crate::scene::{Fairness, Limits};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -36,6 +37,7 @@ impl Public {
                 generation: 0,
                 status: Status::Empty,
                 snapshot: None,
+                loading: None,
                 notices: Vec::new(),
                 scene: None,
                 first_picture_seconds: None,
@@ -61,11 +63,13 @@ pub(super) struct Mailbox {
     inner: Mutex<Inner>,
     arrived: Condvar,
     wake: Box<dyn Fn() + Send + Sync>,
+    /// Of the files that the coordinator reads.
+    progress: Progress,
 }
 
 impl Mailbox {
-    pub fn new(wake: Box<dyn Fn() + Send + Sync>) -> Self {
-        Self { inner: Mutex::default(), arrived: Condvar::new(), wake }
+    pub fn new(wake: Box<dyn Fn() + Send + Sync>, progress: Progress) -> Self {
+        Self { inner: Mutex::default(), arrived: Condvar::new(), wake, progress }
     }
 
     /// Every critical section below leaves `Inner` consistent, so a poisoned lock is still good.
@@ -134,7 +138,11 @@ impl Mailbox {
 
     pub fn state(&self, view: ViewId) -> ViewState {
         let inner = self.lock();
-        inner.views.get(&view).map_or_else(|| Public::new().state, |p| p.state.clone())
+        let mut state = inner.views.get(&view).map_or_else(|| Public::new().state, |p| p.state.clone());
+        if state.status == Status::Building {
+            state.loading = self.progress.loading();
+        }
+        state
     }
 
     /// Takes the waiting commands; sleeps until there is one if `wait`. `None` means shut down.
@@ -215,7 +223,7 @@ mod tests {
 
     #[test]
     fn a_restart_meanwhile_loses_no_newer_job_and_brings_no_view_back() {
-        let (mailbox, view) = (Mailbox::new(Box::new(|| {})), ViewId(0));
+        let (mailbox, view) = (Mailbox::new(Box::new(|| {}), Progress::default()), ViewId(0));
         let newest = || mailbox.lock().views.get(&view).and_then(|p| p.job.clone());
         let done = AtomicBool::new(false);
         std::thread::scope(|scope| {

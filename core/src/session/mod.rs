@@ -20,7 +20,7 @@ mod probe;
 mod turns;
 
 use crate::film::Snapshot;
-use crate::io::Library;
+use crate::io::{Library, Loading};
 use crate::scene::{Fairness, Limits, SceneDoc, SceneInfo};
 pub use batch::{Batch, Budget, render};
 use mailbox::{Command, Mailbox};
@@ -80,6 +80,8 @@ pub struct ViewState {
     pub status: Status,
     /// The newest picture; it may belong to an older generation until the new one has a first picture.
     pub snapshot: Option<Arc<Snapshot>>,
+    /// The file that is read while the scene is built.
+    pub loading: Option<Loading>,
     /// What building repaired or wants to be known, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
     /// Numbers about the newest scene that was built.
@@ -106,7 +108,7 @@ impl Session {
     /// # Errors
     /// When the operating system refuses a thread.
     pub fn new(library: Library, wake: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
-        let mailbox = Arc::new(Mailbox::new(Box::new(wake)));
+        let mailbox = Arc::new(Mailbox::new(Box::new(wake), library.progress().clone()));
         let theirs = Arc::clone(&mailbox);
         let coordinator = std::thread::Builder::new()
             .name("majorant-coordinator".into())

@@ -7,6 +7,7 @@
 //!
 //! To add a format: a file with a `read_bytes`, and one line each in the two matches on `Format`.
 
+mod counted;
 mod cursor;
 mod error;
 mod file;
@@ -66,7 +67,20 @@ impl Format {
 /// # Errors
 /// The file is missing, of an unknown format, damaged, too large, or has no such grid.
 pub fn read_volume(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
-    read_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
+    read_volume_watched(path, grid, limits, &|_| ())
+}
+
+/// [`read_volume`], telling `watch` the share that is done, from 0 to 1, as it rises.
+///
+/// # Errors
+/// As [`read_volume`].
+pub fn read_volume_watched(
+    path: &Path,
+    grid: Option<&str>,
+    limits: &Limits,
+    watch: &dyn Fn(f64),
+) -> Result<VoxelGrid, VolumeError> {
+    read_volume_bytes_watched(&file::read(path, limits)?, &path.display().to_string(), grid, limits, watch)
 }
 
 /// [`read_volume`] for a file in memory; `label` stands for its path, extension included.
@@ -78,6 +92,20 @@ pub fn read_volume_bytes(
     label: &str,
     grid: Option<&str>,
     limits: &Limits,
+) -> Result<VoxelGrid, VolumeError> {
+    read_volume_bytes_watched(bytes, label, grid, limits, &|_| ())
+}
+
+/// [`read_volume_watched`] for a file in memory.
+///
+/// # Errors
+/// As [`read_volume`].
+pub fn read_volume_bytes_watched(
+    bytes: &[u8],
+    label: &str,
+    grid: Option<&str>,
+    limits: &Limits,
+    watch: &dyn Fn(f64),
 ) -> Result<VoxelGrid, VolumeError> {
     let Some(format) = Format::of(label, bytes) else {
         let what = "this file format";
@@ -92,7 +120,7 @@ pub fn read_volume_bytes(
         });
     }
     match format {
-        Format::OpenVdb => read_vdb_bytes(bytes, label, grid, limits),
+        Format::OpenVdb => vdb::read_vdb_bytes_watched(bytes, label, grid, limits, watch),
         Format::Npy => read_npy_bytes(bytes, label, limits),
         Format::MitsubaVol => read_mitsuba_vol_bytes(bytes, label, limits),
         Format::Raw => read_raw_bytes(bytes, label, limits),

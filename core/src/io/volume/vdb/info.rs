@@ -132,7 +132,7 @@ fn describe_values(
     let preflight = preflight::check(archive, index, limits)?;
     let edges = preflight.world_from_index.matrix3;
     let voxel_size = [edges.x_axis, edges.y_axis, edges.z_axis].map(DVec3::length);
-    let sparse = read::unpack(preflight)?;
+    let sparse = read::unpack(preflight, &|_| ())?;
     let stats = sparse.stats();
     let bbox = sparse.active_bbox();
     info.active_voxels = Some(stats.voxels);

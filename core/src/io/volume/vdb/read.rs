@@ -6,6 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use half::f16;
 use vdb_rs::{Grid, Node4, Node5, VdbReader};
 
+use super::super::counted::Counted;
 use super::super::error::Fault;
 use super::super::limits::allocate;
 use super::block::BlockFormat;
@@ -45,16 +46,16 @@ impl_stored_value! {
     i64 => |value| value as f32;
 }
 
-/// Unpacks a grid that passed the preflight.
+/// Unpacks a grid that passed the preflight, telling `watch` the share that is done.
 ///
 /// # Errors
 /// `vdb-rs` fails, or its tree disagrees with the walk, or with the writer's own voxel count and
 /// bounding box.
-pub(super) fn unpack(preflight: Preflight) -> Result<SparseGrid, Fault> {
+pub(super) fn unpack(preflight: Preflight, watch: &dyn Fn(f64)) -> Result<SparseGrid, Fault> {
     let Preflight { transcript, format, topology, voxel_count, bbox, .. } = preflight;
     // The transcript holds nothing that `vdb-rs` is known to panic on. Should it all the same,
     // the user gets an error and keeps the program.
-    let unpacked = catch_unwind(AssertUnwindSafe(|| unpack_transcript(&transcript, &format)));
+    let unpacked = catch_unwind(AssertUnwindSafe(|| unpack_transcript(&transcript, &format, watch)));
     let mut grid = unpacked.unwrap_or_else(|_| {
         Err(Fault::unsupported(
             "vdb-rs panicked on this grid",
@@ -68,10 +69,15 @@ pub(super) fn unpack(preflight: Preflight) -> Result<SparseGrid, Fault> {
     Ok(grid)
 }
 
-fn unpack_transcript(transcript: &[u8], format: &BlockFormat) -> Result<SparseGrid, Fault> {
+fn unpack_transcript(
+    transcript: &[u8],
+    format: &BlockFormat,
+    watch: &dyn Fn(f64),
+) -> Result<SparseGrid, Fault> {
     macro_rules! unpack_as {
         ($stored:ty) => {{
-            let mut reader = VdbReader::new(IoCursor::new(transcript)).map_err(refusal)?;
+            let counted = Counted::new(IoCursor::new(transcript), transcript.len(), watch);
+            let mut reader = VdbReader::new(counted).map_err(refusal)?;
             flatten(reader.read_grid::<$stored>(GRID_NAME).map_err(refusal)?, format)
         }};
     }
