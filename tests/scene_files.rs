@@ -7,9 +7,10 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Arrangement, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc,
-    DensityDoc, DirectionSampling, EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef, Heuristic,
-    Heuristics, Layer, LightDoc, LightSelection, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc, Pair,
-    PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, WhenExceeded,
+    DensityDoc, DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef,
+    Heuristic, Heuristics, Layer, LightDoc, LightSelection, MajorantDoc, MeasureId, MediumDoc, Mode,
+    ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc,
+    WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -75,6 +76,7 @@ fn everything() -> SceneDoc {
             mode: Mode::Rgb,
             sampler: SamplerKind::Lattice,
             wavelengths: WavelengthSampling::Uniform,
+            distances: DistanceSampling::Decomposition,
             directions: DirectionSampling::TowardsLights,
             absorption: Absorption::Analogue,
             heuristics: Heuristics { components: Heuristic::Power, techniques: Heuristic::Maximum },

@@ -10,7 +10,7 @@ use majorant_core::math::Sampler;
 use majorant_core::medium::{AnyMedium, Medium};
 use majorant_core::scene::Absorption;
 use majorant_core::spectrum::{Components, Wavelengths};
-use majorant_core::transport::{PathWeights, Trace, Walk, Wanted, Weights};
+use majorant_core::transport::{PathWeights, Trace, Walk, WalkWeights, Wanted};
 
 fn walk(c: &mut Criterion) {
     let mut group = c.benchmark_group("majorant walk");

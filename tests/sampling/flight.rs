@@ -9,9 +9,9 @@ use line::Line;
 use majorant_core::io::{Library, scene_file};
 use majorant_core::math::{BoxRay, Ray, Sampler};
 use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
-use majorant_core::scene::{Absorption, Scene, build};
+use majorant_core::scene::{Absorption, DistanceSampling, Scene, build};
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
-use majorant_core::transport::{Event, PathWeights, Trace, Walk, Wanted, Weights};
+use majorant_core::transport::{Event, EventRule, PathWeights, Trace, Walk, WalkWeights, Wanted};
 use majorant_tests::chi2::Family;
 
 const WALKS: u64 = 30_000;
@@ -41,12 +41,22 @@ fn fly<L: LocalMedium<N>, const N: usize>(
     (medium, scene): (&L, &Scene),
     (ray, t_max): (&Ray, f32),
 ) {
-    for absorption in [Absorption::Analogue, Absorption::Weighted, Absorption::Roulette] {
-        let name = format!("{name}, {absorption:?}");
+    let by = |absorption, distances| EventRule { absorption, distances };
+    for (stream, rule) in [
+        by(Absorption::Analogue, DistanceSampling::Delta),
+        by(Absorption::Weighted, DistanceSampling::Delta),
+        by(Absorption::Roulette, DistanceSampling::Delta),
+        by(Absorption::Analogue, DistanceSampling::Decomposition),
+        by(Absorption::Weighted, DistanceSampling::Decomposition),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let name = format!("{name}, {:?}, {:?}", rule.absorption, rule.distances);
         let (mut first, mut second, mut real) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..WALKS {
-            let mut trace = Trace::new(Sampler::new(9, i, absorption as u64), Wanted::ALWAYS);
-            let mut walk = Walk::new(medium, scene, ray, t_max, absorption);
+            let mut trace = Trace::new(Sampler::new(9, i, stream as u64), Wanted::ALWAYS);
+            let mut walk = Walk::new(medium, scene, ray, t_max, rule);
             let mut weights = PathWeights::CAMERA;
             let mut before = Vec::new();
             while let Some(collision) = walk.next_collision(&mut trace, &mut weights) {

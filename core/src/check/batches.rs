@@ -75,6 +75,8 @@ pub struct Batches {
     pub paths: u64,
     /// Density look-ups.
     pub lookups: u64,
+    /// Look-ups at which the extinction exceeded the majorant.
+    pub exceeded: u64,
     /// The first sample that was not finite, if any; such samples are left out.
     pub non_finite: Option<NonFinite>,
 }
@@ -92,6 +94,7 @@ impl Batches {
             spp: plan.spp,
             paths: batches.iter().map(|b| b.paths).sum(),
             lookups: batches.iter().map(|b| b.lookups).sum(),
+            exceeded: batches.iter().map(|b| b.exceeded).sum(),
             non_finite: batches.iter().find_map(|b| b.non_finite),
         })
     }
@@ -106,6 +109,7 @@ impl Batches {
         self.spp += more.spp;
         self.paths += more.paths;
         self.lookups += more.lookups;
+        self.exceeded += more.exceeded;
         self.non_finite = self.non_finite.or(more.non_finite);
         self
     }
@@ -128,6 +132,7 @@ struct Batch {
     means: Vec<f64>,
     paths: u64,
     lookups: u64,
+    exceeded: u64,
     non_finite: Option<NonFinite>,
 }
 
@@ -135,7 +140,7 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
     let size = (plan.scene.width, plan.scene.height);
     let mut sums = vec![[0.0f64; 3]; plan.layout.blocks()];
     let mut counts = vec![0u64; plan.layout.blocks()];
-    let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, non_finite: None };
+    let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, exceeded: 0, non_finite: None };
     let first = plan.first_sample + index * plan.spp;
     // Samples of one sequence hang together; batches must not.
     let mut settings = *plan.settings;
@@ -149,6 +154,7 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
                 let estimate = (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, wanted);
                 done.paths += 1;
                 done.lookups += estimate.lookups;
+                done.exceeded += estimate.exceeded;
                 if !estimate.rgb.is_finite() {
                     done.non_finite.get_or_insert(NonFinite { x, y, sample });
                     continue;

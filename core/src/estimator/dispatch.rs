@@ -45,6 +45,7 @@ impl Settings {
     pub fn new(doc: &EstimatorDoc, seed: u64) -> Self {
         let path = PathSettings {
             absorption: doc.absorption,
+            distances: doc.distances,
             heuristics: doc.heuristics,
             bookkeeping: doc.bookkeeping,
             tracking: doc.tracking,

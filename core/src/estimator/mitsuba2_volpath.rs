@@ -31,6 +31,7 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Horešovský's report, algorithms 1–3; Nimier-David et al. 2019",
     unused: &[
         (Axis::Absorption, "its scattering is weighted by μs / μt"),
+        (Axis::Distances, "it tracks by delta in grids, and by the average extinction elsewhere"),
         (Axis::Books, "it keeps throughput over density only"),
         (Axis::Components, "it knows no densities of whole paths"),
         (Axis::Techniques, "it combines them per bounce, by the power heuristic"),

@@ -2,6 +2,7 @@
 //! command line, the self-check and the tests iterate it.
 
 mod dispatch;
+mod equiangular_mis;
 mod independent;
 mod mitsuba2_volpath;
 mod nee;
@@ -44,6 +45,8 @@ pub struct Entry {
 pub enum Axis {
     /// [`crate::scene::Absorption`].
     Absorption,
+    /// [`crate::scene::DistanceSampling`].
+    Distances,
     /// The heuristic among components.
     Components,
     /// The heuristic between techniques.
@@ -99,6 +102,7 @@ pub static REGISTRY: &[Entry] = &[
     spectral_mis::ENTRY,
     nee::ENTRY,
     uni_nee_mis::ENTRY,
+    equiangular_mis::ENTRY,
     spectral_tracking::ENTRY,
     mitsuba2_volpath::ENTRY,
 ];

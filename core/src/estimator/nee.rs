@@ -17,7 +17,7 @@ use crate::medium::LocalMedium;
 use crate::scene::SceneDoc;
 use crate::spectrum::{Components, Radiance};
 use crate::transmittance::TransmittanceKind;
-use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
+use crate::transport::{Event, PathWeights, Trace, Vertex, WalkWeights, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "nee",

@@ -17,7 +17,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, Weights, World};
+use crate::transport::{Event, PathWeights, Trace, Vertex, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-mis",

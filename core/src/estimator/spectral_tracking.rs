@@ -19,7 +19,7 @@ use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{EventDensities, PathWeights, Trace, Vertex, Weights, World};
+use crate::transport::{EventDensities, PathWeights, Trace, Vertex, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-tracking",
@@ -27,6 +27,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "All components share each unidirectional path by event probabilities instead of MIS.",
     reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
     unused: &[
+        (Axis::Distances, "its events are drawn for all components at once"),
         (Axis::Books, "it has no densities to keep"),
         (Axis::Components, "it forms no densities that could be combined"),
         ONE_TECHNIQUE,

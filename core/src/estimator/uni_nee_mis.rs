@@ -19,7 +19,7 @@ use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, Wanted, Weights, World,
+    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, WalkWeights, Wanted, Weights, World,
 };
 use std::marker::PhantomData;
 

@@ -83,6 +83,16 @@ macro_rules! each {
 }
 
 impl Light {
+    /// Its middle; distant lights have none.
+    #[must_use]
+    pub fn center(&self) -> Option<Vec3> {
+        match &self.kind {
+            LightKind::Rectangle(light) => Some(light.shape.center),
+            LightKind::Sphere(light) => Some(light.shape.center),
+            LightKind::Sun(_) | LightKind::Environment(_) | LightKind::EnvironmentMap(_) => None,
+        }
+    }
+
     /// Whether a ray that leaves the scene in `direction` reaches this light; surfaces are met, not
     /// escaped to.
     #[must_use]

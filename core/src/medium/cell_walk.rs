@@ -139,6 +139,8 @@ mod tests {
                     assert!(density <= bound, "{density} > {bound} at {t} of {ray:?}");
                     let [one] = grid.look_up(ray.at(t), Interpolation::Stochastic, 0);
                     let by_sample = looser.walk(&ray).find(|s| (s.t0..s.t1).contains(&t));
+                    let [least] = bounds.least(bounds.cell_at(ray.at(t)));
+                    assert!(least <= density.min(one), "{least} at {t} of {ray:?}");
                     assert!(one <= by_sample.map_or(0.0, |s| s.bound[0]), "{one} at {t} of {ray:?}");
                 }
             }
@@ -158,6 +160,7 @@ mod tests {
             let n = coarse.cells();
             for cell in (0..n.pow(3)).map(|i| [i % n, i / n % n, i / n / n]) {
                 assert!(coarse.bound(cell)[0] <= direct.bound(cell)[0] * 1.000_001);
+                assert!(coarse.least(cell)[0] >= direct.least(cell)[0] * 0.999_999);
             }
             assert!(coarse.mean_bound() >= fine.mean_bound());
             fine = coarse;

@@ -73,6 +73,12 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     }
 
     #[inline]
+    fn control(&self, point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {
+        let [least] = self.bounds.least(self.bounds.cell_at(point));
+        (least > 0.0).then(|| (self.extinction * least, self.albedo))
+    }
+
+    #[inline]
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
         DensitySegments { cells: self.bounds.walk(ray), majorant: self.majorant, policy: self.policy }
     }

@@ -53,6 +53,10 @@ impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
         Outlook::exact(self.extinction)
     }
 
+    fn control(&self, _point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {
+        Some((self.extinction, self.albedo))
+    }
+
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
         std::iter::once(self.policy.segment(self.majorant, 0.0, ray.t_end))
     }

@@ -1,4 +1,4 @@
-//! Local upper bounds of a field: one per cell of a coarse lattice over the unit cube.
+//! Local bounds of a field, from above and from below: one of each per cell of a coarse lattice over the unit cube.
 
 use super::{CellWalk, Grid, Interpolation};
 use crate::math::BoxRay;
@@ -15,6 +15,8 @@ pub struct MajorantGrid<const C: usize> {
     /// `(n + 2)³` bounds, x fastest: the outermost layer is empty, so that a walk which rounds out of the
     /// cube finds nothing there.
     padded: Vec<[f32; C]>,
+    /// Lower bounds of `n³` cells, x fastest.
+    least: Vec<[f32; C]>,
     /// Mean of the field over each of `n³` cells, largest channel.
     mean: Vec<f32>,
 }
@@ -45,7 +47,7 @@ impl<const C: usize> MajorantGrid<C> {
             })
             .collect();
         let layers: Vec<_> = spans[2].par_iter().map(|span| span.summary(&planes, cells * cells)).collect();
-        let Summary { largest, sum } = Summary::joined(&layers, cells * cells);
+        let Summary { largest, smallest, sum } = Summary::joined(&layers, cells * cells);
         // Rounding in the interpolation itself is relative to the values.
         let bound: Vec<_> = largest.iter().map(|b| b.map(|b| b * (1.0 + 4.0 * f32::EPSILON))).collect();
         let count = |cell: usize| {
@@ -54,11 +56,12 @@ impl<const C: usize> MajorantGrid<C> {
         };
         let most = |sum: &[f32; C]| sum.iter().fold(0.0f32, |a, b| a.max(*b));
         let mean = sum.iter().enumerate().map(|(cell, sum)| most(sum) / count(cell)).collect();
-        Self::padded(cells, &bound, mean)
+        let least = smallest.into_iter().map(|b| b.map(|b| b * (1.0 - 4.0 * f32::EPSILON))).collect();
+        Self::padded(cells, &bound, least, mean)
     }
 
-    fn padded(cells: usize, bound: &[[f32; C]], mean: Vec<f32>) -> Self {
-        let mut grid = Self { cells, padded: vec![[0.0; C]; (cells + 2).pow(3)], mean };
+    fn padded(cells: usize, bound: &[[f32; C]], least: Vec<[f32; C]>, mean: Vec<f32>) -> Self {
+        let mut grid = Self { cells, padded: vec![[0.0; C]; (cells + 2).pow(3)], least, mean };
         for (yz, row) in bound.chunks_exact(cells).enumerate() {
             let first = grid.number([0, yz % cells, yz / cells]);
             grid.padded[first..first + cells].copy_from_slice(row);
@@ -83,9 +86,14 @@ impl<const C: usize> MajorantGrid<C> {
             let bounds = eight(cell).map(|at| self.bound(at));
             bounds.fold([0.0f32; C], |max, bound| std::array::from_fn(|c| max[c].max(bound[c])))
         };
+        let smallest = |cell| {
+            let bounds = eight(cell).map(|at| self.least(at));
+            bounds.fold([f32::INFINITY; C], |min, bound| std::array::from_fn(|c| min[c].min(bound[c])))
+        };
         let mean = |cell| eight(cell).map(|at| self.mean(at)).sum::<f32>() / 8.0;
-        let bound: Vec<_> = (0..half.pow(3)).into_par_iter().map(largest).collect();
-        Some(Self::padded(half, &bound, (0..half.pow(3)).into_par_iter().map(mean).collect()))
+        let cells = || (0..half.pow(3)).into_par_iter();
+        let bound: Vec<_> = cells().map(largest).collect();
+        Some(Self::padded(half, &bound, cells().map(smallest).collect(), cells().map(mean).collect()))
     }
 
     /// Cells per axis.
@@ -98,6 +106,13 @@ impl<const C: usize> MajorantGrid<C> {
     #[must_use]
     pub fn bound(&self, cell: [usize; 3]) -> [f32; C] {
         self.padded[self.number(cell)]
+    }
+
+    /// The lower bound of the field in a cell: the least of all samples that look-ups there may read.
+    #[must_use]
+    #[inline]
+    pub fn least(&self, [x, y, z]: [usize; 3]) -> [f32; C] {
+        self.least[x + self.cells * (y + self.cells * z)]
     }
 
     /// Mean of the field over a cell, largest channel.
@@ -219,20 +234,30 @@ impl Span {
                     *sum = std::array::from_fn(|c| sum[c] + more[c]);
                 }
             }
+            if part.iter().all(Option::is_some) {
+                summary.smallest.fill([f32::INFINITY; C]);
+                for samples in part.iter().flatten() {
+                    for (least, more) in summary.smallest.iter_mut().zip(&samples.smallest) {
+                        *least = std::array::from_fn(|c| least[c].min(more[c]));
+                    }
+                }
+            }
             summary
         })
     }
 }
 
-/// What is known of some cells: the largest value and the sum of the samples of each.
+/// What is known of some cells: the largest and smallest value, and the sum of the samples of each.
 struct Summary<const C: usize> {
     largest: Vec<[f32; C]>,
+    smallest: Vec<[f32; C]>,
     sum: Vec<[f32; C]>,
 }
 
 impl<const C: usize> Summary<C> {
     fn empty(cells: usize) -> Self {
-        Self { largest: vec![[0.0; C]; cells], sum: vec![[0.0; C]; cells] }
+        let zeros = vec![[0.0; C]; cells];
+        Self { largest: zeros.clone(), smallest: zeros.clone(), sum: zeros }
     }
 
     /// The cells along a row of samples.
@@ -242,7 +267,15 @@ impl<const C: usize> Summary<C> {
             let samples = row[span.first..=span.last].iter();
             samples.fold([0.0; C], |sum, v| std::array::from_fn(|c| sum[c] + v[c]))
         };
-        Self { largest: spans.iter().map(largest).collect(), sum: spans.iter().map(sum).collect() }
+        let smallest = |span: &Span| {
+            let samples = row[span.first..=span.last].iter();
+            samples.fold([f32::INFINITY; C], |min, v| std::array::from_fn(|c| min[c].min(v[c])))
+        };
+        Self {
+            largest: spans.iter().map(largest).collect(),
+            smallest: spans.iter().map(smallest).collect(),
+            sum: spans.iter().map(sum).collect(),
+        }
     }
 
     /// Raises every largest value to another one.
@@ -261,6 +294,7 @@ impl<const C: usize> Summary<C> {
             if let Some(part) = part {
                 let to = i * cells_of_each..(i + 1) * cells_of_each;
                 all.largest[to.clone()].copy_from_slice(&part.largest);
+                all.smallest[to.clone()].copy_from_slice(&part.smallest);
                 all.sum[to].copy_from_slice(&part.sum);
             }
         }

@@ -72,6 +72,12 @@ pub trait LocalMedium<const N: usize> {
         Outlook::UNKNOWN
     }
 
+    /// A lower bound μc of the extinction around a point of medium space, with the albedo there, if they are known
+    /// without a look-up: what decomposition tracking calls the control.
+    fn control(&self, _point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {
+        None
+    }
+
     /// Majorants along a ray through the unit cube, as segments in order. What they leave out is empty.
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a>;
 }

@@ -154,6 +154,20 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         }
     }
 
+    fn control(&self, point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {
+        let AlbedoField::Uniform(_) = &self.medium.albedo else { return None };
+        let extinction = match &self.medium.extinction {
+            ExtinctionField::Uniform(_) => self.extinction,
+            ExtinctionField::Density(_, bounds, _) => {
+                self.extinction * bounds.least(bounds.cell_at(point))[0]
+            }
+            ExtinctionField::Rgb(_, bounds, _) => {
+                self.extinction * self.upsample(bounds.least(bounds.cell_at(point)))
+            }
+        };
+        (!extinction.is_zero()).then_some((extinction, self.albedo))
+    }
+
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a> {
         let policy = self.medium.majorant;
         match &self.medium.extinction {

@@ -5,7 +5,7 @@ use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
 /// f, p_uni and p_nee of a path under construction, in some form.
-pub trait Weights<const N: usize>: Copy {
+pub trait WalkWeights<const N: usize>: Copy {
     /// A path that has just left the camera.
     const CAMERA: Self;
 
@@ -28,20 +28,12 @@ pub trait Weights<const N: usize>: Copy {
 
     /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
     /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
-    /// joins p_nee in [`Self::combined`].
+    /// joins p_nee in [`Weights::combined`].
     fn leave(&mut self, turn: &Turn);
-
-    /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
-    /// the path. From here on P is p_nee of the hero.
-    #[must_use]
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self;
 
     /// The value of a path that ends at a collision, where the medium emits: every tentative collision is such an
     /// end, so that its density is p_uni,i μ̄_i, and by the balance heuristic f_j μa_j / mean (p_uni,i μ̄_i).
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R;
-
-    /// A connection's transmittance, estimated by something that has no density.
-    fn attenuate(&mut self, transmittance: Sampled<N>);
 
     /// Continues with probability `q`.
     fn survive(&mut self, q: f32);
@@ -55,6 +47,17 @@ pub trait Weights<const N: usize>: Copy {
 
     /// The path's value if only unidirectional sampling makes it; by the balance heuristic f_j / mean p_uni.
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;
+}
+
+/// What an estimator keeps of a path from whose vertices it connects to lights.
+pub trait Weights<const N: usize>: WalkWeights<N> {
+    /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
+    /// the path. From here on P is p_nee of the hero.
+    #[must_use]
+    fn connect(&self, turn: &Turn, light_density: f32) -> Self;
+
+    /// A connection's transmittance, estimated by something that has no density.
+    fn attenuate(&mut self, transmittance: Sampled<N>);
 
     /// A connection's value if only connections make such paths; by the balance heuristic f_j / mean p_nee.
     fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;

@@ -3,12 +3,13 @@
 //! Every collision on the way is taken as null (ratio tracking), so that the connection always
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{Trace, Turn, Vertex, Weights, World};
+use super::{Collision, Trace, Turn, Vertex, WalkWeights, Weights, World};
 use crate::light::Emitter;
 use crate::math::{BoxRay, Ray};
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
 use crate::transmittance::InMedium;
+use glam::Vec2;
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,8 @@ pub struct Aim<R> {
     pub density: f32,
     /// Emitted radiance.
     pub radiance: R,
+    /// Which light it is.
+    pub light: usize,
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
@@ -57,22 +60,55 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
-        let mut weights = path.connect(&aim.turn, aim.density);
-        let mut walk = self.walk_to_light(&aim.ray, aim.distance);
+        let weights = path.connect(&aim.turn, aim.density);
+        let weights = self.pass_by_ratio(&aim.ray, aim.distance, weights, trace)?;
+        Some(Connection { weights, radiance: aim.radiance })
+    }
+
+    /// Passes a stretch of a ray, with every collision taken as null (ratio tracking); `None` if nothing is left.
+    #[inline]
+    pub fn pass_by_ratio<W: WalkWeights<N>>(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        mut weights: W,
+        trace: &mut Trace<'_>,
+    ) -> Option<W> {
+        let mut walk = self.walk_to_light(ray, t_max);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
             if weights.is_dark() {
                 return None;
             }
         }
-        Some(Connection { weights, radiance: aim.radiance })
+        Some(weights)
+    }
+
+    /// The collision that a walk might have at a point of a ray; `None` where it has none.
+    pub fn collision_at(&self, ray: &Ray, t: f32, trace: &mut Trace<'_>) -> Option<Collision<N>> {
+        let point = ray.at(t);
+        let onward = Ray { origin: point, direction: ray.direction };
+        let (_, inside) = BoxRay::enter(&onward, &self.scene.medium_from_world, f32::INFINITY)?;
+        let segment = self.medium.segments(&inside).next()?;
+        trace.lookups += 1;
+        let coefficients = self.medium.coefficients(inside.at(0.0), &segment);
+        // Stretches before the first segment are empty.
+        (segment.t0 <= 0.0).then(|| Collision::new(point, coefficients, (&self.settings).into()))
     }
 
     /// Draws a light and a direction towards it; `None` if it is dark there, or something stands in the way.
     pub fn aim(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Option<Aim<C::Radiance>> {
         let (u, which) = trace.sampler.light();
-        let (index, probability) =
+        let (light, probability) =
             self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
+        let aim = self.aim_at(vertex, light, u)?;
+        Some(Aim { density: aim.density * probability, ..aim })
+    }
+
+    /// Draws a direction towards a light, whose choice its density leaves out; `None` if it is dark there, or
+    /// something stands in the way.
+    #[inline]
+    pub fn aim_at(&self, vertex: &Vertex, index: usize, u: Vec2) -> Option<Aim<C::Radiance>> {
         let light = self.scene.lights.get(index)?;
         let sample = light.sample(vertex.point(), u)?;
         let turn = self.turns().towards(vertex, sample.direction);
@@ -85,8 +121,9 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             turn,
             ray,
             distance: sample.distance,
-            density: sample.density * probability,
+            density: sample.density,
             radiance: light.radiance(sample.direction, &self.components),
+            light: index,
         })
     }
 

@@ -1,7 +1,7 @@
 //! What a renderer without path densities offers: flights, connections and transmittance as weights that are
 //! divided by their density already (the report's algorithms 1–3).
 
-use super::{Event, PathWeights, Trace, Weights, World};
+use super::{Event, PathWeights, Trace, WalkWeights, World};
 use crate::math::{BoxRay, Ray, exp};
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};

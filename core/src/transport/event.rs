@@ -10,10 +10,16 @@
 //!
 //! Where the majorant bounds the extinction, k = 1 and they are the coefficients themselves. Where it
 //! does not, μn is negative and k keeps the densities a partition of μ̄: together they are μ̄ always.
+//!
+//! *Weighted delta tracking* makes real collisions more likely by κ = √(μ̄ / μt), at the cost of null ones: μs κ (or
+//! μt κ), μa κ and μ̄ − μt κ. *Decomposition tracking* splits the extinction into a control μc, known without a look-up,
+//! and the rest; a collision belongs to the control with density μc, and is real then, or to the rest with density
+//! μ̄ − μc, for which the table holds with μt − μc in place of μt. A path is one of a larger space, in which every
+//! collision is of one kind or the other; f and all densities are those of its kind, so that heuristics hold as before.
 
-use super::Trace;
+use super::{PathSettings, Trace};
 use crate::medium::Coefficients;
-use crate::scene::Absorption;
+use crate::scene::{Absorption, DistanceSampling};
 use crate::spectrum::Sampled;
 use glam::Vec3;
 
@@ -28,13 +34,36 @@ pub enum Event {
     Absorption,
 }
 
+/// How events are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EventRule {
+    /// What happens at a collision that may absorb.
+    pub absorption: Absorption,
+    /// What makes a collision real.
+    pub distances: DistanceSampling,
+}
+
+impl From<Absorption> for EventRule {
+    fn from(absorption: Absorption) -> Self {
+        Self { absorption, ..Self::default() }
+    }
+}
+
+impl From<&PathSettings> for EventRule {
+    fn from(settings: &PathSettings) -> Self {
+        Self { absorption: settings.absorption, distances: settings.distances }
+    }
+}
+
 /// A tentative collision of the walk, drawn with density μ̄ e^(−μ̄ t) of the hero.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision<const N: usize> {
     /// Where, in world space.
     pub point: Vec3,
-    /// μa, μs, μn, μ̄ there.
+    /// μa, μs, μn, μ̄ there; of a part of the medium only, where that is taken as two.
     pub coefficients: Coefficients<N>,
+    /// Density of a tentative collision with this part of the medium: μ̄ of all of it.
+    pub tentative: Sampled<N>,
     /// Density of taking it as null, per component.
     pub null_density: Sampled<N>,
     /// Density of taking it as scattering, per component.
@@ -48,7 +77,58 @@ pub struct Collision<const N: usize> {
 impl<const N: usize> Collision<N> {
     /// Prepares the event densities of a collision.
     #[must_use]
-    pub fn new(point: Vec3, coefficients: Coefficients<N>, absorption: Absorption) -> Self {
+    #[inline]
+    pub fn new(point: Vec3, coefficients: Coefficients<N>, rule: EventRule) -> Self {
+        let (all, bounds) = (coefficients.majorant, is_bound(&coefficients));
+        let mut collision = Self::with_part(point, coefficients, all, bounds, rule.absorption);
+        if rule.distances == DistanceSampling::WeightedDelta && collision.bounds {
+            collision.make_real_more_likely();
+        }
+        collision
+    }
+
+    /// A collision with the control, of extinction μc: it is real.
+    #[must_use]
+    pub fn with_control(
+        point: Vec3,
+        control: Sampled<N>,
+        albedo: Sampled<N>,
+        majorant: Sampled<N>,
+        absorption: Absorption,
+    ) -> Self {
+        let scattering = control * albedo;
+        let part =
+            Coefficients { absorption: control - scattering, scattering, null: Sampled::ZERO, majorant };
+        Self::with_part(point, part, control, true, absorption)
+    }
+
+    /// A collision with what the control leaves of a medium.
+    #[must_use]
+    pub fn with_rest(
+        point: Vec3,
+        all: Coefficients<N>,
+        control: Sampled<N>,
+        albedo: Sampled<N>,
+        absorption: Absorption,
+    ) -> Self {
+        // The control is a lower bound, but for rounding.
+        let less = |all: Sampled<N>, part: Sampled<N>| all.zip(part, |all, part| (all - part).max(0.0));
+        let rest = Coefficients {
+            absorption: less(all.absorption, control - control * albedo),
+            scattering: less(all.scattering, control * albedo),
+            ..all
+        };
+        Self::with_part(point, rest, all.majorant - control, is_bound(&all), absorption)
+    }
+
+    #[inline(always)]
+    fn with_part(
+        point: Vec3,
+        coefficients: Coefficients<N>,
+        tentative: Sampled<N>,
+        bounds: bool,
+        absorption: Absorption,
+    ) -> Self {
         let c = &coefficients;
         let extinction = c.extinction();
         let mut null_density = c.null.abs();
@@ -56,14 +136,22 @@ impl<const N: usize> Collision<N> {
             Absorption::Analogue => (c.scattering, c.absorption.hero()),
             Absorption::Weighted | Absorption::Roulette => (extinction, 0.0),
         };
-        let bounds = extinction.zip(c.majorant, |t, m| if t > m { 1.0 } else { 0.0 }).is_zero();
         if !bounds {
-            let k = c.majorant.zip(extinction + null_density, |m, sum| m / sum.max(f32::MIN_POSITIVE));
+            let k = tentative.zip(extinction + null_density, |m, sum| m / sum.max(f32::MIN_POSITIVE));
             null_density *= k;
             scattering_density *= k;
             absorption_density *= k.hero();
         }
-        Self { point, coefficients, null_density, scattering_density, absorption_density, bounds }
+        Self { point, coefficients, tentative, null_density, scattering_density, absorption_density, bounds }
+    }
+
+    /// Multiplies the densities of real events by κ = √(μ̄ / μt), which leaves μ̄ − √(μ̄ μt) to null ones.
+    fn make_real_more_likely(&mut self) {
+        let extinction = self.coefficients.extinction();
+        let kappa = self.tentative.zip(extinction, |m, t| if t > 0.0 { (m / t).sqrt() } else { 1.0 });
+        self.scattering_density *= kappa;
+        self.absorption_density *= kappa.hero();
+        self.null_density = self.tentative.zip(extinction, |m, t| (m - (m * t).sqrt()).max(0.0));
     }
 
     /// Draws whether the collision is real, by μt / μ̄ of the hero (the report's algorithm 3): where the majorant is
@@ -77,8 +165,8 @@ impl<const N: usize> Collision<N> {
     /// Draws the event from the hero's densities.
     pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
-        let u = trace.sampler.event() * self.coefficients.majorant.hero();
-        // The three densities add up to μ̄. An event of density zero is never drawn, even by rounding.
+        let u = trace.sampler.event() * self.tentative.hero();
+        // The three densities add up to the tentative one. An event of density zero is never drawn, even by rounding.
         if u < self.absorption_density {
             Event::Absorption
         } else if u < self.absorption_density + scattering {
@@ -91,4 +179,10 @@ impl<const N: usize> Collision<N> {
             Event::Absorption
         }
     }
+}
+
+/// Whether the majorant bounds the extinction, at every component.
+#[inline(always)]
+fn is_bound<const N: usize>(c: &Coefficients<N>) -> bool {
+    c.extinction().zip(c.majorant, |t, m| if t > m { 1.0 } else { 0.0 }).is_zero()
 }

@@ -1,6 +1,7 @@
 //! How a path is shared among all that could have made it: heuristics of multiple importance sampling.
 
-use crate::scene::Heuristic;
+use crate::scene::{Heuristic, Heuristics};
+use crate::spectrum::Sampled;
 
 /// Densities that differ by no more than this are the same to the maximum heuristic: rounding must not decide
 /// between equals, or different heroes would decide differently.
@@ -25,6 +26,58 @@ pub fn share(heuristic: Heuristic, own: f32, all: impl Iterator<Item = f32> + Cl
         Heuristic::Maximum => {
             let tied = |density: &f32| relative(*density) >= 1.0 - TIE;
             if tied(&own) { 1.0 / all.filter(tied).count() as f32 } else { 0.0 }
+        }
+    }
+}
+
+/// Shares a path of worth f / P between techniques with densities p / P, of which the first made it, then among the
+/// heroes of that one. With p_t = mean_i p_t,i and heuristics h the weight is
+///
+/// ```text
+///   w_t,i = h(p_t among techniques) · h(p_t,i among components)
+/// ```
+///
+/// which sums to one over both, and is p_t,i over the sum of all where h is the balance heuristic.
+#[must_use]
+#[inline]
+pub fn among_all<const N: usize, const T: usize>(
+    contribution: Sampled<N>,
+    densities: [Sampled<N>; T],
+    heuristics: Heuristics,
+) -> Sampled<N> {
+    if heuristics == Heuristics::default() {
+        let all = densities.into_iter().fold(Sampled::ZERO, |sum, p| sum + p);
+        return contribution * (1.0 / all.mean());
+    }
+    let density = |p: Sampled<N>| match heuristics.components {
+        // Without a family of heroes each component has its own techniques.
+        Heuristic::HeroOnly => p.hero(),
+        _ => p.mean(),
+    };
+    let made = densities[0];
+    let of_technique = share(heuristics.techniques, density(made), densities.into_iter().map(density));
+    among_heroes(contribution, made, of_technique, heuristics.components)
+}
+
+/// f / P times the weight of the hero among the components that could have been it, with densities p / P; `weight` is
+/// what is shared. In place of each of the N heroes a path is made one time in N.
+#[must_use]
+#[inline]
+pub fn among_heroes<const N: usize>(
+    contribution: Sampled<N>,
+    p: Sampled<N>,
+    weight: f32,
+    heuristic: Heuristic,
+) -> Sampled<N> {
+    match heuristic {
+        Heuristic::Balance => contribution * (weight / p.mean()),
+        Heuristic::HeroOnly => {
+            let mut hero = Sampled::ZERO;
+            hero.0[0] = contribution.hero() * weight * N as f32;
+            hero
+        }
+        Heuristic::Power | Heuristic::Maximum => {
+            contribution * (weight * N as f32 * share(heuristic, p.hero(), p.0.into_iter()))
         }
     }
 }

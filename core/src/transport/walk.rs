@@ -3,16 +3,17 @@
 //! An optical depth with density e^(−τ) is drawn once per collision and spent segment by segment, so
 //! that a ray may cross any number of segments at the price of one logarithm.
 
-use super::{Collision, Trace, Weights};
+use super::{Collision, EventRule, Trace, WalkWeights};
 use crate::math::{BoxRay, Ray};
 use crate::medium::{LocalMedium, MajorantSegment};
-use crate::scene::{Absorption, Scene};
+use crate::scene::{DistanceSampling, Scene};
 use crate::spectrum::Sampled;
+use glam::Vec3;
 
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
-    absorption: Absorption,
+    rule: EventRule,
     /// Whether it looks for the path's next vertex, whose random numbers it then may take.
     to_vertex: bool,
     /// What is left of the way; `None` where the ray misses the medium, or has left it.
@@ -32,8 +33,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     /// Starts at the ray's origin and ends where the ray leaves the medium, at `t_max` at the latest.
     #[must_use]
     #[inline(always)]
-    pub fn new(medium: &'m L, scene: &Scene, ray: &Ray, t_max: f32, absorption: Absorption) -> Self {
-        Self::along(medium, scene, ray, t_max, absorption, true)
+    pub fn new(medium: &'m L, scene: &Scene, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
+        Self::along(medium, scene, ray, t_max, rule.into(), true)
     }
 
     /// As [`Self::new`]; says whether the walk looks for the path's next vertex, or connects two.
@@ -44,10 +45,10 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         scene: &Scene,
         ray: &Ray,
         t_max: f32,
-        absorption: Absorption,
+        rule: EventRule,
         to_vertex: bool,
     ) -> Self {
-        let outside = Self { medium, absorption, to_vertex, way: None };
+        let outside = Self { medium, rule, to_vertex, way: None };
         let Some((t0, in_medium)) = BoxRay::enter(ray, &scene.medium_from_world, t_max) else {
             return outside;
         };
@@ -56,7 +57,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         let in_world = Ray { origin: ray.at(t0), direction: ray.direction };
         Self {
             medium,
-            absorption,
+            rule,
             to_vertex,
             way: Some(Way { in_world, in_medium, segments, segment, t: segment.t0 }),
         }
@@ -68,7 +69,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     pub fn next_collision(
         &mut self,
         trace: &mut Trace<'_>,
-        weights: &mut impl Weights<N>,
+        weights: &mut impl WalkWeights<N>,
     ) -> Option<Collision<N>> {
         let way = self.way.as_mut()?;
         if trace.must_stop() {
@@ -86,9 +87,13 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 let distance = optical_depth / hero;
                 weights.pass(passed + segment.majorant * distance);
                 way.t += distance;
-                trace.lookups += 1;
-                let coefficients = self.medium.coefficients(way.in_medium.at(way.t), segment);
-                let collision = Collision::new(way.in_world.at(way.t), coefficients, self.absorption);
+                let (point, inside) = (way.in_world.at(way.t), way.in_medium.at(way.t));
+                let collision = if self.rule.distances == DistanceSampling::Decomposition && self.to_vertex {
+                    collide_with_parts(self.medium, self.rule, (point, inside), segment, trace)
+                } else {
+                    trace.lookups += 1;
+                    Collision::new(point, self.medium.coefficients(inside, segment), self.rule)
+                };
                 trace.exceeded += u64::from(!collision.bounds);
                 return Some(collision);
             }
@@ -103,4 +108,22 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         self.way = None;
         None
     }
+}
+
+/// A collision with one of the two parts of a medium, of which the control costs no look-up. Connections are not
+/// split: a collision that is taken as null counts against all of the medium.
+fn collide_with_parts<L: LocalMedium<N>, const N: usize>(
+    medium: &L,
+    rule: EventRule,
+    (point, inside): (Vec3, Vec3),
+    segment: &MajorantSegment<N>,
+    trace: &mut Trace<'_>,
+) -> Collision<N> {
+    let (control, albedo) = medium.control(inside).unwrap_or((Sampled::ZERO, Sampled::ZERO));
+    let control = control.zip(segment.majorant, f32::min);
+    if control.hero() > 0.0 && trace.sampler.next_1d() * segment.majorant.hero() < control.hero() {
+        return Collision::with_control(point, control, albedo, segment.majorant, rule.absorption);
+    }
+    trace.lookups += 1;
+    Collision::with_rest(point, medium.coefficients(inside, segment), control, albedo, rule.absorption)
 }

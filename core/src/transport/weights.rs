@@ -20,9 +20,9 @@
 //! Decisions that do not depend on the components, such as Russian roulette, scale the contribution
 //! alone: weights that leave them out of *every* technique still sum to one.
 
-use super::heuristic::share;
-use super::{Collision, Turn, Weights};
-use crate::scene::{Heuristic, Heuristics};
+use super::heuristic::{among_all, among_heroes};
+use super::{Collision, Turn, WalkWeights, Weights};
+use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
 /// Contribution and densities of a path, divided by the density with which it was made.
@@ -38,7 +38,7 @@ pub struct PathWeights<const N: usize> {
 /// The most optical depth that waits: e^(±16) times what an event does to a weight stays within f32.
 const MOST_PENDING: f32 = 16.0;
 
-impl<const N: usize> Weights<N> for PathWeights<N> {
+impl<const N: usize> WalkWeights<N> for PathWeights<N> {
     const CAMERA: Self =
         Self { contribution: Sampled::ONE, uni: Sampled::ONE, nee: Sampled::ONE, pending: Sampled::ZERO };
 
@@ -84,28 +84,11 @@ impl<const N: usize> Weights<N> for PathWeights<N> {
         self.nee = self.uni * drawn;
     }
 
-    #[inline]
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
-        let drawn = 1.0 / light_density;
-        Self {
-            contribution: self.contribution * (turn.value * drawn),
-            uni: self.uni * (turn.density * drawn),
-            nee: self.uni,
-            pending: self.pending,
-        }
-    }
-
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
-        let scale = 1.0 / c.coefficients.majorant.hero();
+        let scale = 1.0 / c.tentative.hero();
         let mut now = self.settled();
         now.contribution *= c.coefficients.absorption * scale;
-        radiance * now.among_heroes(now.uni * (c.coefficients.majorant * scale), 1.0, heuristics.components)
-    }
-
-    #[inline]
-    fn attenuate(&mut self, transmittance: Sampled<N>) {
-        *self = self.settled();
-        self.contribution *= transmittance;
+        radiance * among_heroes(now.contribution, now.uni * (c.tentative * scale), 1.0, heuristics.components)
     }
 
     #[inline]
@@ -126,25 +109,44 @@ impl<const N: usize> Weights<N> for PathWeights<N> {
     #[inline]
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * now.among_heroes(now.uni, 1.0, heuristics.components)
+        radiance * among_heroes(now.contribution, now.uni, 1.0, heuristics.components)
+    }
+}
+
+impl<const N: usize> Weights<N> for PathWeights<N> {
+    #[inline]
+    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+        let drawn = 1.0 / light_density;
+        Self {
+            contribution: self.contribution * (turn.value * drawn),
+            uni: self.uni * (turn.density * drawn),
+            nee: self.uni,
+            pending: self.pending,
+        }
+    }
+
+    #[inline]
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        *self = self.settled();
+        self.contribution *= transmittance;
     }
 
     #[inline]
     fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * now.among_heroes(now.nee, 1.0, heuristics.components)
+        radiance * among_heroes(now.contribution, now.nee, 1.0, heuristics.components)
     }
 
     #[inline]
     fn combined<R: Radiance<N>>(&self, radiance: R, light_density: f32, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * now.among_all([now.uni, now.nee * light_density], heuristics)
+        radiance * among_all(now.contribution, [now.uni, now.nee * light_density], heuristics)
     }
 
     #[inline]
     fn connected_combined<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         let now = self.settled();
-        radiance * now.among_all([now.nee, now.uni], heuristics)
+        radiance * among_all(now.contribution, [now.nee, now.uni], heuristics)
     }
 }
 
@@ -200,13 +202,13 @@ impl<const N: usize> PathWeights<N> {
     /// [`Self::hero_only`] of a path that ends at a collision, where the medium emits.
     #[must_use]
     pub fn hero_emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
-        radiance * self.hero(c.coefficients.absorption.hero() / c.coefficients.majorant.hero())
+        radiance * self.hero(c.coefficients.absorption.hero() / c.tentative.hero())
     }
 
     /// [`Self::as_drawn`] of a path that ends at a collision, where the medium emits.
     #[must_use]
     pub fn emitted_as_drawn<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
-        let drawn = c.coefficients.absorption * (1.0 / c.coefficients.majorant.hero());
+        let drawn = c.coefficients.absorption * (1.0 / c.tentative.hero());
         radiance * (self.settled().contribution * drawn)
     }
 
@@ -214,42 +216,6 @@ impl<const N: usize> PathWeights<N> {
     #[must_use]
     pub fn as_drawn<R: Radiance<N>>(&self, radiance: R) -> R {
         radiance * self.settled().contribution
-    }
-
-    /// Shares a path between the technique that made it, whose densities come first, and the other one, then among
-    /// the heroes of that technique. With p_t = mean_i p_t,i and heuristics h the weight is
-    ///
-    /// ```text
-    ///   w_t,i = h(p_t among techniques) · h(p_t,i among components)
-    /// ```
-    ///
-    /// which sums to one over both, and is p_t,i over the sum of all where h is the balance heuristic.
-    #[inline]
-    fn among_all(&self, [made, other]: [Sampled<N>; 2], heuristics: Heuristics) -> Sampled<N> {
-        if heuristics == Heuristics::default() {
-            return self.contribution * (1.0 / (made + other).mean());
-        }
-        let density = |p: Sampled<N>| match heuristics.components {
-            // Without a family of heroes each component has its own two techniques.
-            Heuristic::HeroOnly => p.hero(),
-            _ => p.mean(),
-        };
-        let densities = [made, other].map(density);
-        let of_technique = share(heuristics.techniques, densities[0], densities.into_iter());
-        self.among_heroes(made, of_technique, heuristics.components)
-    }
-
-    /// f_j / P times the weight of the hero among the components that could have been it, in place of each of
-    /// which a path is made one time in N; `weight` is what is shared.
-    #[inline]
-    fn among_heroes(&self, p: Sampled<N>, weight: f32, heuristic: Heuristic) -> Sampled<N> {
-        match heuristic {
-            Heuristic::Balance => self.contribution * (weight / p.mean()),
-            Heuristic::HeroOnly => self.hero(weight * N as f32),
-            Heuristic::Power | Heuristic::Maximum => {
-                self.contribution * (weight * N as f32 * share(heuristic, p.hero(), p.0.into_iter()))
-            }
-        }
     }
 
     fn hero(&self, weight: f32) -> Sampled<N> {

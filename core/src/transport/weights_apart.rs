@@ -6,7 +6,7 @@
 //! times as long.
 
 use super::heuristic::share;
-use super::{Collision, Turn, Weights};
+use super::{Collision, Turn, WalkWeights, Weights};
 use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 use std::ops::{AddAssign, Div, Mul, MulAssign};
@@ -99,7 +99,7 @@ impl<T: Number, const N: usize> WeightsApart<T, N> {
     }
 }
 
-impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
+impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
     const CAMERA: Self = Self { f: [T::ONE; N], uni: [T::ONE; N], nee: [T::ONE; N], dark: false };
 
     fn pass(&mut self, optical_depth: Sampled<N>) {
@@ -134,24 +134,11 @@ impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
         multiply(&mut self.uni, Sampled::splat(turn.density));
     }
 
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
-        let mut link = *self;
-        link.nee = self.uni;
-        multiply(&mut link.f, Sampled::splat(turn.value));
-        multiply(&mut link.uni, Sampled::splat(turn.density));
-        multiply(&mut link.nee, Sampled::splat(light_density));
-        link
-    }
-
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
         let mut end = *self;
         end.contributes(c.coefficients.absorption);
-        multiply(&mut end.uni, c.coefficients.majorant);
+        multiply(&mut end.uni, c.tentative);
         radiance * end.among_heroes(end.uni, 1.0, heuristics.components)
-    }
-
-    fn attenuate(&mut self, transmittance: Sampled<N>) {
-        self.contributes(transmittance);
     }
 
     fn survive(&mut self, q: f32) {
@@ -168,6 +155,21 @@ impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
 
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         radiance * self.among_heroes(self.uni, 1.0, heuristics.components)
+    }
+}
+
+impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
+    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+        let mut link = *self;
+        link.nee = self.uni;
+        multiply(&mut link.f, Sampled::splat(turn.value));
+        multiply(&mut link.uni, Sampled::splat(turn.density));
+        multiply(&mut link.nee, Sampled::splat(light_density));
+        link
+    }
+
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        self.contributes(transmittance);
     }
 
     fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {

@@ -8,7 +8,7 @@
 //! technique and event, and that no heuristic but the balance heuristic can be formed of them (Miller et al. 2019,
 //! equations 26–30). Where f_j is zero the quotients are infinite, and stay so.
 
-use super::{Collision, Turn, Weights};
+use super::{Collision, Turn, WalkWeights, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -38,7 +38,7 @@ fn inverse_mean<const N: usize>(quotients: [Sampled<N>; N]) -> Sampled<N> {
     sum.map(|sum| N as f32 / sum)
 }
 
-impl<const N: usize> Weights<N> for WeightsPairwise<N> {
+impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
     const CAMERA: Self = Self { uni: [Sampled::ONE; N], nee: [Sampled::ONE; N] };
 
     fn pass(&mut self, optical_depth: Sampled<N>) {
@@ -73,23 +73,10 @@ impl<const N: usize> Weights<N> for WeightsPairwise<N> {
         multiply(&mut self.uni, Sampled::splat(turn.density), Sampled::splat(turn.value));
     }
 
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
-        let mut link = *self;
-        link.nee = self.uni;
-        multiply(&mut link.nee, Sampled::splat(light_density), Sampled::splat(turn.value));
-        multiply(&mut link.uni, Sampled::splat(turn.density), Sampled::splat(turn.value));
-        link
-    }
-
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, _: Heuristics) -> R {
         let mut end = self.uni;
-        multiply(&mut end, c.coefficients.majorant, c.coefficients.absorption);
+        multiply(&mut end, c.tentative, c.coefficients.absorption);
         radiance * inverse_mean(end)
-    }
-
-    fn attenuate(&mut self, transmittance: Sampled<N>) {
-        multiply(&mut self.uni, Sampled::ONE, transmittance);
-        multiply(&mut self.nee, Sampled::ONE, transmittance);
     }
 
     fn survive(&mut self, q: f32) {
@@ -107,6 +94,21 @@ impl<const N: usize> Weights<N> for WeightsPairwise<N> {
 
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, _: Heuristics) -> R {
         radiance * inverse_mean(self.uni)
+    }
+}
+
+impl<const N: usize> Weights<N> for WeightsPairwise<N> {
+    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+        let mut link = *self;
+        link.nee = self.uni;
+        multiply(&mut link.nee, Sampled::splat(light_density), Sampled::splat(turn.value));
+        multiply(&mut link.uni, Sampled::splat(turn.density), Sampled::splat(turn.value));
+        link
+    }
+
+    fn attenuate(&mut self, transmittance: Sampled<N>) {
+        multiply(&mut self.uni, Sampled::ONE, transmittance);
+        multiply(&mut self.nee, Sampled::ONE, transmittance);
     }
 
     fn connected_only<R: Radiance<N>>(&self, radiance: R, _: Heuristics) -> R {

@@ -63,7 +63,7 @@ impl<const N: usize> Place<N> {
         let majorant = Sampled(self.majorant);
         let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
         let coefficients = Coefficients::new(Sampled(self.extinction), Sampled(self.albedo), &segment);
-        Collision::new(Vec3::ZERO, coefficients, absorption)
+        Collision::new(Vec3::ZERO, coefficients, absorption.into())
     }
 }
 

@@ -10,7 +10,9 @@ use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::{Absorption, Heuristic, Heuristics};
 use crate::spectrum::Sampled;
 use crate::transport::Turn;
-use crate::transport::{Collision, Event, Trace, Wanted, Weights, WeightsApart, WeightsPairwise};
+use crate::transport::{
+    Collision, Event, Trace, WalkWeights, Wanted, Weights, WeightsApart, WeightsPairwise,
+};
 use glam::Vec3;
 use plain::{Events, events};
 use proptest::prelude::*;
@@ -234,7 +236,7 @@ fn a_hundred_thousand_events_stay_finite() {
         let majorant = extinction * factor;
         let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
         let coefficients = Coefficients::new(extinction, Sampled::ONE, &segment);
-        let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted);
+        let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
         let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
         let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
         let mut path = PathWeights::CAMERA;
@@ -269,7 +271,7 @@ fn products_apart_overflow_where_quotients_do_not() {
     let extinction = Sampled([400.0f32, 300.0, 200.0, 100.0]);
     let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false };
     let coefficients = Coefficients::new(extinction, Sampled::splat(0.99), &segment);
-    let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted);
+    let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
     let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
     fn fly<W: Weights<4>>(collision: &Collision<4>, turn: &Turn) -> Sampled<4> {
         let mut path = W::CAMERA;

@@ -1,10 +1,12 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Collision, Turns, Vertex, Walk, Wanted, Weights};
+use super::{Collision, EventRule, Turns, Vertex, Walk, WalkWeights, Wanted};
 use crate::light::Emitter;
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
-use crate::scene::{Absorption, Bookkeeping, Heuristics, LightSelection, NearestSurface, Scene, Tracking};
+use crate::scene::{
+    Absorption, Bookkeeping, DistanceSampling, Heuristics, LightSelection, NearestSurface, Scene, Tracking,
+};
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
@@ -14,6 +16,8 @@ use crate::transmittance::TransmittanceKind;
 pub struct PathSettings {
     /// What happens at a collision that may absorb.
     pub absorption: Absorption,
+    /// How distances to the next event are drawn.
+    pub distances: DistanceSampling,
     /// How a path is shared among all that could have made it.
     pub heuristics: Heuristics,
     /// How f and p of a path are kept.
@@ -74,6 +78,8 @@ pub struct Arrival<R> {
     /// Density with which light sampling, including the choice of the light, would have drawn the
     /// ray's direction at its origin; per steradian.
     pub density: f32,
+    /// Which light it is.
+    pub light: usize,
 }
 
 /// A scene, its medium and its spectra at the components of one path.
@@ -93,14 +99,14 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     #[must_use]
     #[inline(always)]
     pub fn walk(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
-        Walk::new(&self.medium, self.scene, ray, t_max, self.settings.absorption)
+        Walk::new(&self.medium, self.scene, ray, t_max, &self.settings)
     }
 
     /// The walk of a connection, up to a light.
     #[must_use]
     #[inline(always)]
     pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
-        Walk::along(&self.medium, self.scene, ray, t_max, self.settings.absorption, false)
+        Walk::along(&self.medium, self.scene, ray, t_max, EventRule::from(&self.settings), false)
     }
 
     /// Radiance that the medium emits at a collision, to be weighted with what the path is worth there; black if it is
@@ -140,6 +146,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
                 radiance: light.radiance(ray.direction, &self.components),
                 density: light.density(ray.origin, ray.direction, t)
                     * self.scene.light_choice.probability(index, ray.origin, self.settings.lights),
+                light: index,
             })
         })
     }
@@ -166,7 +173,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Draws the direction that a path leaves a vertex in.
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, weights: &mut impl Weights<N>, trace: &mut Trace<'_>) -> Ray {
+    pub fn leave(&self, vertex: &Vertex, weights: &mut impl WalkWeights<N>, trace: &mut Trace<'_>) -> Ray {
         let turn = self.turns().draw(vertex, trace.sampler.direction());
         trace.sampler.start_vertex();
         weights.leave(&turn);
@@ -175,7 +182,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
     /// can still contribute, it is still wanted.
-    pub fn goes_on(&self, vertices: u32, weights: &impl Weights<N>, trace: &mut Trace<'_>) -> bool {
+    pub fn goes_on(&self, vertices: u32, weights: &impl WalkWeights<N>, trace: &mut Trace<'_>) -> bool {
         vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
     }
 
@@ -184,7 +191,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     pub fn survives_roulette(
         &self,
         vertices: u32,
-        weights: &mut impl Weights<N>,
+        weights: &mut impl WalkWeights<N>,
         trace: &mut Trace<'_>,
     ) -> bool {
         if vertices < self.settings.roulette_depth {

@@ -5,8 +5,8 @@ use egui::{RichText, Ui};
 use majorant_core::estimator::{self, Axis};
 use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
-    Absorption, Bookkeeping, DirectionSampling, EstimatorDoc, Heuristic, Heuristics, LightSelection, Mode,
-    Tracking,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
+    LightSelection, Mode, Tracking,
 };
 use majorant_core::spectrum::WavelengthSampling;
 use majorant_core::transmittance::TransmittanceKind;
@@ -16,6 +16,7 @@ pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     components_ui(ui, doc);
     open_ui(ui, doc, Axis::Absorption, absorption_ui);
     sampling_ui(ui, doc);
+    open_ui(ui, doc, Axis::Distances, distances_ui);
     open_ui(ui, doc, Axis::Lights, lights_ui);
     open_ui(ui, doc, Axis::Transmittance, transmittance_ui);
     combination_ui(ui, doc);
@@ -79,6 +80,25 @@ fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
             }
         },
     );
+}
+
+fn distances_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Distances", "How the distance to the next event is drawn", |ui, _| {
+        let options = [
+            (DistanceSampling::Delta, "Delta", "Real with P = σt / μ: the fewest weights"),
+            (
+                DistanceSampling::WeightedDelta,
+                "Weighted",
+                "Real with P = √(σt / μ): fewer look-ups per event, weights that vary",
+            ),
+            (
+                DistanceSampling::Decomposition,
+                "Split",
+                "Decomposition: collisions with the local minimum are real and cost no look-up",
+            ),
+        ];
+        segmented(ui, "Distances", &mut doc.distances, &options);
+    });
 }
 
 fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {

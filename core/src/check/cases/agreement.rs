@@ -12,8 +12,8 @@ use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
 use crate::scene::{
-    Absorption, Bookkeeping, DirectionSampling, EmissionDoc, GridRef, Heuristic, Heuristics, LightSelection,
-    Mode, Tracking,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EmissionDoc, GridRef, Heuristic,
+    Heuristics, LightSelection, Mode, Tracking,
 };
 use crate::spectrum::WavelengthSampling;
 
@@ -161,8 +161,29 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     };
     let plume = scene("plume", &format!("{ASIDE}{PLUME}"))?;
     let cloud = scene("cloud", &format!("{ASIDE}{CLOUD}"))?;
+    let inside = scene("inside", INSIDE)?;
     let grids = scene("rgb-grids", &format!("{ASIDE}{RGB_GRIDS}"))?.with_files(files());
     Ok(vec![
+        plume
+            .varied("agreement/plume-split-glowing", |d| {
+                let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
+                d.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+                d.estimator.distances = DistanceSampling::Decomposition;
+                d.medium.majorant.resolution = Some(32);
+            })
+            .among(&REGISTRY[..4]),
+        cloud
+            .varied("agreement/cloud-weighted-delta", |d| {
+                d.estimator.distances = DistanceSampling::WeightedDelta;
+            })
+            .among(&REGISTRY[..4]),
+        inside
+            .varied("agreement/inside-split", |d| {
+                d.estimator.distances = DistanceSampling::Decomposition;
+                d.estimator.absorption = Absorption::Analogue;
+                d.medium.majorant.shared = false;
+            })
+            .among(&REGISTRY[..4]),
         plume.varied("agreement/plume-analogue-rgb", |d| {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.mode = Mode::Rgb;
@@ -225,7 +246,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             d.medium.majorant.resolution = Some(9);
         }),
         cloud,
-        scene("inside", INSIDE)?,
+        inside,
         scene("fog", &format!("{ASIDE}{FOG}"))?,
         grids.varied("agreement/rgb-grids-rgb", |d| d.estimator.mode = Mode::Rgb),
         grids,

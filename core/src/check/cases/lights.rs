@@ -8,8 +8,8 @@
 
 use super::super::truth;
 use super::super::{Answer, Case, CheckError, Family, Layout};
-use super::AXIS;
 use super::single_scattering::{Cube, Disc, QUADRATURE, sun, to_face};
+use super::{AXIS, CONNECTING, CONNECTING_AND_ONE};
 use crate::io::Library;
 use crate::light::Panorama;
 use glam::DVec3;
@@ -199,5 +199,12 @@ fn lamp_inside() -> Result<Case, CheckError> {
 }
 
 fn cases() -> Result<Vec<Case>, CheckError> {
-    Ok(vec![two_powers()?, occluder()?, tiny_sun()?, lamp_inside()?, diffuse_ground()?])
+    // Whoever does not connect needs thirty million paths to tell, of the tiny sun and of the lamp beside the ground.
+    Ok(vec![
+        two_powers()?.among(&CONNECTING_AND_ONE),
+        occluder()?.among(&CONNECTING_AND_ONE),
+        tiny_sun()?.among(&CONNECTING),
+        lamp_inside()?,
+        diffuse_ground()?.among(&CONNECTING),
+    ])
 }

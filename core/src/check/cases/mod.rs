@@ -35,6 +35,12 @@ pub static FAMILIES: &[Family] = &[
 static CONNECTING: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.unused(Axis::Lights).is_none()).copied().collect());
 
+/// The same, and one that does not connect: for cases about phase functions and lights, on which the unidirectional
+/// estimators differ in nothing but the time that they need to tell.
+static CONNECTING_AND_ONE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+    REGISTRY.iter().filter(|e| e.id == "spectral-mis").chain(CONNECTING.iter()).copied().collect()
+});
+
 /// The cases of a usual look, or of a thorough one.
 ///
 /// # Errors

@@ -11,7 +11,7 @@
 
 use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
-use super::{AXIS, CONNECTING};
+use super::{AXIS, CONNECTING, CONNECTING_AND_ONE};
 use crate::io::Library;
 use crate::scene::{Angle, PhaseDoc};
 use glam::DVec3;
@@ -150,7 +150,11 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         let case = case(&format!("sun-{name}"), medium, &sun_toml(toward, diameter), "rgb", answer)?;
         let case = case.varied(case.name.clone(), |d| d.medium.phase = doc);
         // Droplets send little to the side: whoever does not connect needs a hundred million paths to tell.
-        cases.push(if name == "mie" { case.among(&CONNECTING) } else { case });
+        cases.push(match name {
+            "mie" => case.among(&CONNECTING),
+            "isotropic" => case,
+            _ => case.among(&CONNECTING_AND_ONE),
+        });
     }
 
     // A sphere beside the cube is seen under another angle from every point.
@@ -166,7 +170,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         radiance = 3.0
         visible = false";
     let single = sigma.map(|extinction| Cube { extinction, albedo: 0.8 }.single(isotropic, sphere));
-    cases.push(case("sphere", medium, lamp, "rgb", Answer::uniform(single, Layout::WHOLE))?);
+    let sphere = case("sphere", medium, lamp, "rgb", Answer::uniform(single, Layout::WHOLE))?;
+    cases.push(sphere.among(&CONNECTING_AND_ONE));
 
     // A sun that fills most of the half-space: one wavelength in a path is noise enough.
     let (points, wide) = (Points(&[(430.0, 1.0), (540.0, 5.0), (620.0, 2.0)]), 150.0);

@@ -1,0 +1,155 @@
+//! Equiangular MIS: Uni+NEE MIS with a third technique that draws distances towards a light.
+//!
+//! ```text
+//!   each technique adds   Le_j · f_j / ( (1/C) Σ_i (p_uni,i + p_nee,i + p_eq,i) )
+//! ```
+//!
+//! Along every ray of the path a further vertex is drawn with the inverse square of its distance to a light, and
+//! connected to that light; what lies between counts as null, by ratio tracking. The walk goes on from its own vertex.
+//! Costs a second connection per vertex: a path takes 2.3 times as long. Wins where a small light stands in or close to a
+//! thin medium, whose collisions rarely happen where the light is strong: on the embedded lanterns 2.9 times the
+//! efficiency of Uni+NEE MIS. Distant lights have no place, and leave Uni+NEE MIS.
+//! Kulla and Fajardo 2012, section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
+
+use super::{
+    Axis, Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, RESCALED, Settings, clamped_majorant,
+    dispatch,
+};
+use crate::math::Ray;
+use crate::medium::LocalMedium;
+use crate::scene::{DistanceSampling, Scene};
+use crate::spectrum::{Components, Radiance};
+use crate::transport::{
+    EquiangularWeights, Event, LightDensities, Passage, PathSettings, Reached, Trace, Vertex, WalkWeights,
+    Wanted, World,
+};
+
+pub(super) const ENTRY: Entry = Entry {
+    id: "equiangular-mis",
+    name: "Equiangular MIS",
+    summary: "Uni+NEE MIS and distances drawn towards the light; wins for lamps in thin media.",
+    reference: "Kulla & Fajardo 2012, section 4; Miller, Georgiev & Jarosz 2019, section 5.2",
+    unused: &[
+        HERO_DRAWS,
+        RESCALED,
+        (Axis::Distances, "a vertex that is drawn by angle lies in the whole medium, not in a part of it"),
+        (
+            Axis::Transmittance,
+            "MIS needs the density of every null collision, which other estimates do not have",
+        ),
+    ],
+    infinite_variance: |_| None,
+    bias_of: clamped_majorant,
+    kernel,
+};
+
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+    let path = PathSettings { distances: DistanceSampling::Delta, ..settings.path };
+    dispatch::family::<EquiangularMis>(scene, &Settings { path, ..*settings }, at, wanted)
+}
+
+struct EquiangularMis;
+
+impl Estimator for EquiangularMis {
+    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, L, C, N>,
+        mut ray: Ray,
+        trace: &mut Trace<'_>,
+    ) -> C::Radiance {
+        let heuristics = world.settings.heuristics;
+        let mut radiance = C::Radiance::BLACK;
+        let mut path = EquiangularWeights::CAMERA;
+        let mut reached = Reached::Otherwise;
+        let mut vertices = 0;
+        loop {
+            let surface = world.nearest_surface(&ray, vertices == 0);
+
+            // The further vertex, and its connection.
+            let passage = Passage::through(world.scene, &ray, surface.t());
+            if let Some(passage) = &passage
+                && vertices + 1 < world.settings.max_depth
+            {
+                radiance += by_angle(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
+            }
+
+            // Fly until something real happens; the weights follow every null collision.
+            let mut walk = world.walk(&ray, surface.t());
+            let scattered_at = loop {
+                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
+                if let Some(glow) = world.emission_at(&collision, trace) {
+                    radiance += path.emitted(glow, &collision, heuristics);
+                }
+                match collision.draw_event(trace) {
+                    Event::Null => path.null(&collision),
+                    Event::Absorption => return radiance,
+                    Event::Scattering => {
+                        path.scatter(&collision);
+                        break Some(collision.point);
+                    }
+                }
+            };
+
+            let vertex = if let Some(point) = scattered_at {
+                reached = Reached::through(passage, point);
+                Vertex::Medium { point, omega_in: ray.direction }
+            } else {
+                // The walk has met light. Before the first real vertex only it could have.
+                for light in world.arrivals(&ray, &surface, vertices == 0) {
+                    radiance += if vertices == 0 {
+                        path.unidirectional(light.radiance, heuristics)
+                    } else {
+                        let densities =
+                            reached.light_densities(world, light.light, ray.origin, light.density);
+                        path.combined(light.radiance, densities, heuristics)
+                    };
+                }
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                    return radiance;
+                };
+                path.reflect(albedo);
+                reached = Reached::Otherwise;
+                vertex
+            };
+
+            vertices += 1;
+            if !world.goes_on(vertices, &path, trace) {
+                return radiance;
+            }
+            if let Some(aim) = world.aim(&vertex, trace) {
+                let densities = reached.light_densities(world, aim.light, vertex.point(), aim.density);
+                let link = path.connect(&aim.turn, densities);
+                if let Some(link) = world.pass_by_ratio(&aim.ray, aim.distance, link, trace) {
+                    radiance += link.connected(aim.radiance, heuristics);
+                }
+            }
+            if !world.survives_roulette(vertices, &mut path, trace) {
+                return radiance;
+            }
+            ray = world.leave(&vertex, &mut path, trace);
+        }
+    }
+}
+
+/// What a vertex adds that is drawn towards a light and connected to it.
+fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    passage: &Passage,
+    path: EquiangularWeights<N>,
+    trace: &mut Trace<'_>,
+) -> Option<C::Radiance> {
+    let (from, by) = (passage.ray.origin, world.settings.lights);
+    let choice = &world.scene.light_choice;
+    let (light, probability) = choice.choose(from, trace.sampler.next_1d(), by)?;
+    let pivot = world.scene.lights.get(light)?.center()?;
+    let (t, density) = passage.sample(pivot, trace.sampler.next_1d());
+    let mut link = world.pass_by_ratio(&passage.ray, t, path, trace)?;
+    let collision = world.collision_at(&passage.ray, t, trace)?;
+    link.scatter_by_angle(&collision, density * probability);
+
+    let vertex = Vertex::Medium { point: collision.point, omega_in: passage.ray.direction };
+    let aim = world.aim_at(&vertex, light, trace.sampler.next_2d())?;
+    let nee = aim.density * choice.probability(light, collision.point, by);
+    let link = link.connect_by_angle(&aim.turn, LightDensities { nee, eq: aim.density });
+    let link = world.pass_by_ratio(&aim.ray, aim.distance, link, trace)?;
+    Some(link.connected_by_angle(aim.radiance, world.settings.heuristics))
+}

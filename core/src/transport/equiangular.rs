@@ -1,0 +1,155 @@
+//! Equiangular sampling: distances along a ray such that a point is seen to turn by equal angles.
+//!
+//! With D the distance of the pivot from the ray, and t counted from the foot of its perpendicular,
+//!
+//! ```text
+//!   p(t) = D / ((θ_b − θ_a) (D² + t²))      t = D tan θ, θ uniform from θ_a to θ_b
+//! ```
+//!
+//! which is the inverse square of the distance to the pivot, normalised (Kulla and Fajardo 2012, section 4.1).
+
+use super::{LightDensities, World};
+use crate::math::{BoxRay, Ray};
+use crate::medium::LocalMedium;
+use crate::scene::Scene;
+use crate::spectrum::Components;
+use glam::Vec3;
+
+/// The part of a ray inside the medium.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage {
+    /// The ray.
+    pub ray: Ray,
+    near: f32,
+    far: f32,
+}
+
+/// A passage as seen from a pivot.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    /// Distance of the pivot from the ray.
+    height: f32,
+    /// From the foot of the perpendicular to where the passage begins.
+    start: f32,
+    /// The angle that it is seen under.
+    angle: f32,
+}
+
+/// A pivot on the ray would make all distances one; it is held this share of the passage away.
+const LEAST_HEIGHT: f32 = 1e-3;
+
+impl Passage {
+    /// The part of a ray inside the scene's medium, up to `t_max`; `None` if it misses.
+    #[must_use]
+    pub fn through(scene: &Scene, ray: &Ray, t_max: f32) -> Option<Self> {
+        let (near, inside) = BoxRay::enter(ray, &scene.medium_from_world, t_max)?;
+        Some(Self { ray: *ray, near, far: near + inside.t_end })
+    }
+
+    fn seen_from(&self, pivot: Vec3) -> Seen {
+        let to_pivot = pivot - self.ray.origin;
+        let foot = to_pivot.dot(self.ray.direction);
+        let height = (to_pivot - self.ray.direction * foot).length();
+        let (start, length) = (self.near - foot, self.far - self.near);
+        let height = height.max(LEAST_HEIGHT * length);
+        // The tangent of a difference of two angles that far away are nearly the same.
+        let angle = (height * length).atan2(height * height + start * (start + length));
+        Seen { height, start, angle }
+    }
+
+    /// Draws a distance along the ray by a number uniform in [0, 1), with its density per unit of length.
+    #[must_use]
+    pub fn sample(&self, pivot: Vec3, u: f32) -> (f32, f32) {
+        let Seen { height, start, angle } = self.seen_from(pivot);
+        let (sin, cos) = (u * angle).sin_cos();
+        let beyond = sin * (height * height + start * start) / (height * cos - start * sin);
+        let t = (self.near + beyond.max(0.0)).min(self.far);
+        (t, self.density(pivot, t))
+    }
+
+    /// The density with which [`Self::sample`] draws a distance.
+    #[must_use]
+    pub fn density(&self, pivot: Vec3, t: f32) -> f32 {
+        let Seen { height, start, angle } = self.seen_from(pivot);
+        if angle <= 0.0 {
+            return 0.0;
+        }
+        // A vertex of the walk may lie an ulp outside.
+        let from_foot = start + (t.clamp(self.near, self.far) - self.near);
+        height / (angle * (height * height + from_foot * from_foot))
+    }
+}
+
+/// How a path has come to its last vertex.
+#[derive(Clone, Copy, Debug)]
+pub enum Reached {
+    /// Along a passage, to this distance: the vertex might have been drawn by angle.
+    Through(Passage, f32),
+    /// In a way that no vertex by angle has: it lies on a surface, or there is none yet.
+    Otherwise,
+}
+
+impl Reached {
+    /// A vertex in the medium.
+    #[must_use]
+    pub fn through(passage: Option<Passage>, vertex: Vec3) -> Self {
+        passage.map_or(Self::Otherwise, |p| Self::Through(p, (vertex - p.ray.origin).dot(p.ray.direction)))
+    }
+
+    /// What the densities of techniques have that depends on the light, for a direction from the vertex that light
+    /// sampling draws with density `nee`.
+    #[must_use]
+    pub fn light_densities<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+        &self,
+        world: &World<'_, L, C, N>,
+        light: usize,
+        vertex: Vec3,
+        nee: f32,
+    ) -> LightDensities {
+        let (scene, by) = (world.scene, world.settings.lights);
+        let eq = match (self, scene.lights.get(light).and_then(|l| l.center())) {
+            (Self::Through(passage, t), Some(pivot)) => {
+                let choice = |at| scene.light_choice.probability(light, at, by);
+                nee * passage.density(pivot, *t) * choice(passage.ray.origin) / choice(vertex)
+            }
+            _ => 0.0,
+        };
+        LightDensities { nee, eq }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passage(near: f32, far: f32) -> Passage {
+        Passage { ray: Ray { origin: Vec3::new(1.0, 2.0, 3.0), direction: Vec3::Y }, near, far }
+    }
+
+    /// ∫ p from where the passage begins to t is the number that t was drawn by.
+    #[test]
+    fn distances_are_drawn_by_their_density() {
+        for (name, pivot, near, far) in [
+            ("beside", Vec3::new(1.5, 3.0, 3.2), 0.0, 4.0),
+            ("behind", Vec3::new(1.5, -3.0, 3.2), 0.5, 2.0),
+            ("ahead", Vec3::new(0.5, 9.0, 3.0), 0.5, 2.0),
+            ("far away", Vec3::new(3e3, -2e3, 3.0), 1.0, 2.0),
+            ("on the ray", Vec3::new(1.0, 3.0, 3.0), 0.0, 3.0),
+        ] {
+            let passage = passage(near, far);
+            for i in 0..20u8 {
+                let u = (f32::from(i) + 0.5) / 20.0;
+                let (t, density) = passage.sample(pivot, u);
+                assert!((near..=far).contains(&t) && density > 0.0, "{name}: {t}, {density}");
+                // The density near a pivot on the ray has a peak of this width.
+                let steps = 200_000u32;
+                let width = f64::from(t - near) / f64::from(steps);
+                let middle = |k: u32| f64::from(near) + (f64::from(k) + 0.5) * width;
+                let before: f64 =
+                    (0..steps).map(|k| f64::from(passage.density(pivot, middle(k) as f32))).sum::<f64>()
+                        * width;
+                assert!((before - f64::from(u)).abs() < 2e-3, "{name}: {before} at {u}");
+            }
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Path weights with a third technique: equiangular connections.
+//!
+//! A path … x, y, light has three makers from its last but one vertex x on, which all have drawn the direction
+//! from x to y alike. With ∏ over the null collisions between x and y, and between y and the light:
+//!
+//! ```text
+//!   unidirectional   p_uni = ∏ |μn| · scattering density · phase density · ∏ |μn|
+//!   next event       p_nee = ∏ |μn| · scattering density · light density · ∏ μ̄
+//!   equiangular      p_eq  = ∏  μ̄   · p(t | light)        · light density · ∏ μ̄
+//! ```
+//!
+//! all with the same e^(−∫ μ̄), so that their quotients hold as in [`super::PathWeights`]. Kept are f, p_uni, p_nee and
+//! p_eq over the density P with which the path was made, but for what depends on the light that it ends at.
+
+use super::heuristic::{among_all, among_heroes};
+use super::{Collision, Turn, WalkWeights};
+use crate::scene::Heuristics;
+use crate::spectrum::{Radiance, Sampled};
+
+/// Contribution and three densities of a path, divided by the density with which it was made.
+#[derive(Clone, Copy, Debug)]
+pub struct EquiangularWeights<const N: usize> {
+    contribution: Sampled<N>,
+    uni: Sampled<N>,
+    nee: Sampled<N>,
+    /// Of paths whose last vertex was drawn by angle: zero behind a surface.
+    eq: Sampled<N>,
+    /// As `uni`, with every collision since the last vertex taken as null: what `eq` will be if the next one is drawn
+    /// by angle.
+    ahead: Sampled<N>,
+}
+
+/// What the densities of techniques have besides, for one light.
+#[derive(Clone, Copy, Debug)]
+pub struct LightDensities {
+    /// Of the direction to the light at the last vertex, the choice of the light included; per steradian.
+    pub nee: f32,
+    /// Of the same direction, times that of the last vertex along its ray and of the light it was drawn for.
+    pub eq: f32,
+}
+
+impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
+    const CAMERA: Self = Self {
+        contribution: Sampled::ONE,
+        uni: Sampled::ONE,
+        nee: Sampled::ZERO,
+        eq: Sampled::ZERO,
+        ahead: Sampled::ONE,
+    };
+
+    fn pass(&mut self, optical_depth: Sampled<N>) {
+        if N > 1 {
+            self.scale((Sampled::splat(optical_depth.hero()) - optical_depth).exp());
+        }
+    }
+
+    fn null(&mut self, c: &Collision<N>) {
+        self.pass_null(c, c.null_density.hero());
+    }
+
+    fn null_by_ratio(&mut self, c: &Collision<N>) {
+        self.pass_null(c, c.coefficients.majorant.hero());
+    }
+
+    fn scatter(&mut self, c: &Collision<N>) {
+        let scale = 1.0 / c.scattering_density.hero();
+        self.contribution *= c.coefficients.scattering * scale;
+        self.uni *= c.scattering_density * scale;
+        self.eq = self.ahead * scale;
+    }
+
+    fn reflect(&mut self, albedo: Sampled<N>) {
+        self.contribution *= albedo;
+        self.eq = Sampled::ZERO;
+    }
+
+    fn leave(&mut self, turn: &Turn) {
+        let drawn = 1.0 / turn.density;
+        self.contribution *= turn.value * drawn;
+        self.nee = self.uni * drawn;
+        self.eq *= drawn;
+        self.ahead = self.uni;
+    }
+
+    fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
+        let scale = 1.0 / c.tentative.hero();
+        let contribution = self.contribution * c.coefficients.absorption * scale;
+        radiance * among_heroes(contribution, self.uni * (c.tentative * scale), 1.0, heuristics.components)
+    }
+
+    fn survive(&mut self, q: f32) {
+        self.contribution *= 1.0 / q;
+    }
+
+    fn throughput(&self) -> f32 {
+        self.contribution.abs().max_component() / self.uni.mean()
+    }
+
+    fn is_dark(&self) -> bool {
+        self.contribution.is_zero()
+    }
+
+    fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        radiance * among_heroes(self.contribution, self.uni, 1.0, heuristics.components)
+    }
+}
+
+impl<const N: usize> EquiangularWeights<N> {
+    fn scale(&mut self, by: Sampled<N>) {
+        for kept in [&mut self.contribution, &mut self.uni, &mut self.nee, &mut self.eq, &mut self.ahead] {
+            *kept *= by;
+        }
+    }
+
+    fn pass_null(&mut self, c: &Collision<N>, made_with: f32) {
+        let scale = 1.0 / made_with;
+        self.contribution *= c.coefficients.null * scale;
+        self.uni *= c.null_density * scale;
+        let by_ratio = c.coefficients.majorant * scale;
+        self.nee *= by_ratio;
+        self.eq *= by_ratio;
+        self.ahead *= by_ratio;
+    }
+
+    /// A vertex that was drawn by angle, with this density, at the end of a stretch whose collisions were taken as null.
+    pub fn scatter_by_angle(&mut self, c: &Collision<N>, density: f32) {
+        let scale = 1.0 / density;
+        self.contribution *= c.coefficients.scattering * scale;
+        self.uni *= c.scattering_density * scale;
+        self.eq = self.ahead;
+    }
+
+    /// A connection from a vertex of the path: P is p_nee of the hero from here on.
+    #[must_use]
+    pub fn connect(&self, turn: &Turn, light: LightDensities) -> Self {
+        let drawn = 1.0 / light.nee;
+        Self {
+            contribution: self.contribution * (turn.value * drawn),
+            uni: self.uni * (turn.density * drawn),
+            nee: self.uni,
+            eq: self.eq * (light.eq * drawn),
+            ahead: self.ahead,
+        }
+    }
+
+    /// A connection from a vertex that was drawn by angle; of the light's densities only what comes after that
+    /// vertex counts in `eq`. P is p_eq of the hero.
+    #[must_use]
+    pub fn connect_by_angle(&self, turn: &Turn, light: LightDensities) -> Self {
+        let drawn = 1.0 / light.eq;
+        Self {
+            contribution: self.contribution * (turn.value * drawn),
+            uni: self.uni * (turn.density * drawn),
+            nee: self.uni * (light.nee * drawn),
+            eq: self.eq,
+            ahead: self.ahead,
+        }
+    }
+
+    /// The value of a walk that has met a light; by the balance heuristics f_j / mean (p_uni + p_nee + p_eq).
+    #[must_use]
+    pub fn combined<R: Radiance<N>>(&self, radiance: R, light: LightDensities, heuristics: Heuristics) -> R {
+        let densities = [self.uni, self.nee * light.nee, self.eq * light.eq];
+        radiance * among_all(self.contribution, densities, heuristics)
+    }
+
+    /// The value of a connection from a vertex of the path.
+    #[must_use]
+    pub fn connected<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        radiance * among_all(self.contribution, [self.nee, self.uni, self.eq], heuristics)
+    }
+
+    /// The value of a connection from a vertex that was drawn by angle.
+    #[must_use]
+    pub fn connected_by_angle<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+        radiance * among_all(self.contribution, [self.eq, self.uni, self.nee], heuristics)
+    }
+}
