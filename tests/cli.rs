@@ -5,6 +5,8 @@
 mod bench;
 #[path = "cli/compare.rs"]
 mod compare;
+#[path = "cli/figures.rs"]
+mod figures;
 
 use serde_json::Value;
 use std::path::Path;
@@ -42,7 +44,15 @@ fn lists_estimators_and_scenes() {
     let ids: Vec<_> = estimators.lines().filter_map(|l| l.split_whitespace().next()).collect();
     assert_eq!(
         ids,
-        ["independent", "spectral-mis", "nee", "uni-nee-mis", "spectral-tracking", "mitsuba2-volpath"]
+        [
+            "independent",
+            "spectral-mis",
+            "nee",
+            "uni-nee-mis",
+            "equiangular-mis",
+            "spectral-tracking",
+            "mitsuba2-volpath"
+        ]
     );
     let scenes = succeeds(&["scenes"]);
     for name in [
@@ -52,6 +62,7 @@ fn lists_estimators_and_scenes() {
         "cloud-sidelit",
         "homogeneous-absorption",
         "fire",
+        "lantern",
         "furnace",
     ] {
         let line = scenes.lines().find(|l| l.starts_with(name)).unwrap();

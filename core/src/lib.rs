@@ -1,7 +1,7 @@
 //! Monte Carlo light transport in participating media, on the null-scattering path integral.
 //!
 //! ```text
-//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench
+//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench ─► figures
 //!                                                          ▲                                             ▲
 //!                                         io (scenes, volumes, pictures, results)          measure (errors)
 //!   medium ─► transmittance (of a ray) ─► transport
@@ -17,6 +17,7 @@ pub mod bench;
 pub mod check;
 pub mod compare;
 pub mod estimator;
+pub mod figures;
 pub mod film;
 pub mod io;
 pub mod light;
@@ -49,6 +50,7 @@ mod tests {
         &["session", "check"],
         &["compare"],
         &["bench"],
+        &["figures"],
     ];
 
     fn layer(room: &str) -> usize {

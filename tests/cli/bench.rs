@@ -42,7 +42,7 @@ fn bench_makes_a_reference_of_its_own_and_prints_columns() {
     let mut lines = csv.lines();
     let header: Vec<_> = lines.next().unwrap().split(',').collect();
     let fields: Vec<_> = lines.next().unwrap().split(',').collect();
-    assert!(header.len() == 23 && header.contains(&"efficiency_lo"), "{header:?}");
+    assert!(header.len() == 24 && header.contains(&"efficiency_lo"), "{header:?}");
     assert_eq!(&fields[..5], ["furnace", "nee", "2", fields[3], "2"]);
     assert!(lines.next().is_none() && csv.contains("own run of Uni+NEE MIS"));
     let table = succeeds(&with("--threads=1"));

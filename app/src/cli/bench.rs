@@ -81,8 +81,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let budget = arguments.spp.map_or(Budget::Seconds(arguments.seconds), Budget::Samples);
     let plan = Plan {
-        subjects: subjects::load(arguments)?,
-        estimators: estimators(&arguments.estimators)?,
+        subjects: subjects::load(arguments, &estimators(&arguments.estimators)?)?,
         budget,
         repeats: arguments.repeats,
         threads: arguments.threads.map(usize::from),

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod compare;
 mod estimators;
+mod figures;
 mod info;
 mod lab;
 mod options;
@@ -34,6 +35,7 @@ Examples:
   majorant compare cloud-backlit --seconds 20 -o report --html
                                                   which estimator wins, and by how much
   majorant bench first-light --seconds 4          how much certainty does a second buy?
+  majorant figures all -o report                  the report's figures, and the study that it calls for
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
 Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window."
@@ -55,6 +57,8 @@ enum Command {
     Bench(bench::Arguments),
     /// Rank estimators on a scene: cost, noise, error, speed-up, bias; as a table, files, a page.
     Compare(compare::Arguments),
+    /// Reproduce the report: its figures, and every estimator at equal time with a conclusion.
+    Figures(figures::Arguments),
     /// List the estimators.
     Estimators,
     /// Describe a volume, picture or scene file.
@@ -88,6 +92,7 @@ pub fn main() -> ExitCode {
         Some(Command::Bench(a)) => bench::run(&a),
         Some(Command::Check(a)) => check::run(&a),
         Some(Command::Compare(a)) => compare::run(&a),
+        Some(Command::Figures(a)) => figures::run(&a),
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),

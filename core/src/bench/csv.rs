@@ -19,6 +19,7 @@ pub fn csv(rows: &[Row]) -> Result<String, ::csv::Error> {
         "cpu_seconds",
         "paths_per_second",
         "lookups_per_path",
+        "lost",
     ]
     .map(str::to_owned)
     .to_vec();
@@ -30,7 +31,7 @@ pub fn csv(rows: &[Row]) -> Result<String, ::csv::Error> {
     for row in rows {
         let mut fields = vec![
             row.scene.clone(),
-            row.estimator.to_owned(),
+            row.estimator.clone(),
             row.repeats.to_string(),
             row.threads.to_string(),
             row.spp.to_string(),
@@ -38,6 +39,7 @@ pub fn csv(rows: &[Row]) -> Result<String, ::csv::Error> {
             row.cpu_seconds.to_string(),
             row.paths_per_second.to_string(),
             row.lookups_per_path.to_string(),
+            row.lost.to_string(),
         ];
         for i in [&row.relmse, &row.efficiency, &row.lookups_to_unit_error, &row.speedup] {
             fields.extend([i.mean, i.lo, i.hi].map(|x| x.to_string()));

@@ -3,7 +3,7 @@
 use crate::compare::Reference;
 use crate::estimator::Entry;
 use crate::io::Library;
-use crate::scene::SceneDoc;
+use crate::scene::{EstimatorDoc, SceneDoc};
 use crate::session::Budget;
 
 /// A scene to be run.
@@ -15,8 +15,35 @@ pub struct Subject {
     pub doc: SceneDoc,
     /// Finds its files.
     pub library: Library,
+    /// What is run on it, in order; ratios are relative to the first.
+    pub entrants: Vec<Entrant>,
     /// What errors are measured against.
     pub reference: ReferencePlan,
+}
+
+/// An estimator with its settings.
+#[derive(Clone, Debug)]
+pub struct Entrant {
+    /// How its row is called.
+    pub name: String,
+    /// The estimator.
+    pub entry: &'static Entry,
+    /// Its settings, in place of the scene's.
+    pub settings: EstimatorDoc,
+}
+
+impl Entrant {
+    /// An estimator with a scene's own settings.
+    #[must_use]
+    pub fn of(entry: &'static Entry, doc: &SceneDoc) -> Self {
+        Self { name: entry.id.to_owned(), entry, settings: doc.estimator.clone() }
+    }
+
+    /// Why its estimate of a scene is biased, if it is.
+    #[must_use]
+    pub fn bias(&self, doc: &SceneDoc) -> Option<&'static str> {
+        self.entry.bias(&SceneDoc { estimator: self.settings.clone(), ..doc.clone() })
+    }
 }
 
 /// Where a scene's reference comes from.
@@ -33,16 +60,14 @@ pub enum ReferencePlan {
     },
 }
 
-/// Scenes, estimators, and how long and how often each is run.
+/// Scenes with their entrants, and how long and how often each is run.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Scenes, in order.
     pub subjects: Vec<Subject>,
-    /// Estimators, in order; ratios are relative to the first.
-    pub estimators: Vec<&'static Entry>,
     /// Of every trial.
     pub budget: Budget,
-    /// Trials of every estimator on every scene, at least 2.
+    /// Trials of every entrant on its scene, at least 2.
     pub repeats: u32,
     /// Worker threads; one per core if absent.
     pub threads: Option<usize>,

@@ -1,5 +1,6 @@
 //! What the trials of one estimator on one scene amount to.
 
+use crate::compare::report::words;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -16,6 +17,8 @@ pub struct Trial {
     pub paths: u64,
     /// Look-ups of the medium.
     pub lookups: u64,
+    /// Paths without a finite value, which the film leaves out.
+    pub non_finite: u64,
     /// Relative mean squared error, less what the reference's own noise adds.
     pub relmse: f64,
 }
@@ -36,8 +39,8 @@ pub struct Interval {
 pub struct Row {
     /// The scene.
     pub scene: String,
-    /// The estimator's id.
-    pub estimator: &'static str,
+    /// The estimator's id, or how it is called with its settings.
+    pub estimator: String,
     /// Runs.
     pub repeats: usize,
     /// Worker threads.
@@ -52,6 +55,8 @@ pub struct Row {
     pub paths_per_second: f64,
     /// Look-ups per path.
     pub lookups_per_path: f64,
+    /// Share of paths without a finite value: they are left out, which biases what is left.
+    pub lost: f64,
     /// Relative mean squared error of a run.
     pub relmse: Interval,
     /// 1/(relMSE · CPU seconds).
@@ -64,6 +69,9 @@ pub struct Row {
     pub heavy_tailed: bool,
     /// What errors were measured against.
     pub reference: String,
+    /// The runs themselves.
+    #[serde(skip)]
+    pub trials: Vec<Trial>,
 }
 
 /// The half width of a 95 % interval, in standard errors of a mean of `n`.
@@ -86,6 +94,25 @@ impl Interval {
         Self { mean, lo: (mean - t * error).max(0.0), hi: mean + t * error }
     }
 
+    /// Three digits each: `0.0123 [0.0120, 0.0126]`; what has no width stands alone.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        self.written(words::number)
+    }
+
+    /// A ratio: `2.31 [2.10, 2.54]`.
+    #[must_use]
+    pub fn as_ratio(&self) -> String {
+        self.written(words::times)
+    }
+
+    fn written(&self, write: fn(f64) -> String) -> String {
+        if self.lo == self.hi {
+            return write(self.mean);
+        }
+        format!("{} [{}, {}]", write(self.mean), write(self.lo), write(self.hi))
+    }
+
     /// Of one over a positive quantity.
     fn inverse(self) -> Self {
         Self { mean: 1.0 / self.mean, lo: 1.0 / self.hi, hi: 1.0 / self.lo }
@@ -97,13 +124,12 @@ impl Row {
     #[must_use]
     pub fn new(
         scene: String,
-        estimator: &'static str,
+        estimator: String,
         trials: &[Trial],
         first: &[Trial],
         (threads, reference): (usize, String),
     ) -> Self {
         let mean = |of: fn(&Trial) -> f64| trials.iter().map(of).sum::<f64>() / trials.len() as f64;
-        let cost = |t: &Trial| t.relmse * t.cpu_seconds;
         let errors = trials.iter().map(|t| t.relmse);
         let total: f64 = errors.clone().sum();
         let largest = errors.clone().fold(0.0, f64::max);
@@ -117,14 +143,35 @@ impl Row {
             cpu_seconds: mean(|t| t.cpu_seconds),
             paths_per_second: mean(|t| t.paths as f64 / t.wall_seconds),
             lookups_per_path: mean(|t| t.lookups as f64 / t.paths as f64),
+            lost: mean(|t| t.non_finite as f64 / t.paths as f64),
             relmse: Interval::of(errors),
             efficiency: Interval::of(trials.iter().map(cost)).inverse(),
             lookups_to_unit_error: Interval::of(trials.iter().map(|t| t.lookups as f64 * t.relmse)),
             speedup: speedup(trials.iter().map(cost), first.iter().map(cost)),
             heavy_tailed: trials.len() > 2 && largest > 0.5 * total,
             reference,
+            trials: trials.to_vec(),
         }
     }
+
+    /// Efficiency relative to another row of the same scene, with its 95 % interval.
+    #[must_use]
+    pub fn speedup_over(&self, other: &Self) -> Interval {
+        speedup(self.trials.iter().map(cost), other.trials.iter().map(cost))
+    }
+
+    /// Paths per CPU second relative to another row of the same scene, with its 95 % interval: what a path costs,
+    /// whatever it brings.
+    #[must_use]
+    pub fn pace_over(&self, other: &Self) -> Interval {
+        let seconds = |t: &Trial| t.cpu_seconds / t.paths as f64;
+        speedup(self.trials.iter().map(seconds), other.trials.iter().map(seconds))
+    }
+}
+
+/// Error times CPU seconds: what efficiency is one over.
+fn cost(trial: &Trial) -> f64 {
+    trial.relmse * trial.cpu_seconds
 }
 
 /// How many times less one costs than the other. The interval is that of the logarithm, to first order.
@@ -145,11 +192,11 @@ mod tests {
     use crate::math::Sampler;
 
     fn trial(relmse: f64, cpu_seconds: f64) -> Trial {
-        Trial { spp: 8, wall_seconds: 1.0, cpu_seconds, paths: 100, lookups: 400, relmse }
+        Trial { spp: 8, wall_seconds: 1.0, cpu_seconds, paths: 100, lookups: 400, non_finite: 1, relmse }
     }
 
     fn row(trials: &[Trial], first: &[Trial]) -> Row {
-        Row::new("scene".into(), "nee", trials, first, (2, "itself".into()))
+        Row::new("scene".into(), "nee".into(), trials, first, (2, "itself".into()))
     }
 
     #[test]
@@ -159,10 +206,18 @@ mod tests {
         assert!((r.relmse.mean - 0.2).abs() < 1e-12 && (r.efficiency.mean - 2.5).abs() < 1e-12);
         assert!((r.speedup.mean - 2.0).abs() < 1e-12 && r.speedup.lo < 2.0 && r.speedup.hi > 2.0);
         assert!((r.lookups_to_unit_error.mean - 80.0).abs() < 1e-9);
-        assert_eq!((r.lookups_per_path, r.paths_per_second), (4.0, 100.0));
+        assert_eq!((r.lookups_per_path, r.paths_per_second, r.lost), (4.0, 100.0, 0.01));
         // Two trials that differ that much leave the error open towards zero.
         assert_eq!((r.relmse.lo, r.efficiency.hi), (0.0, f64::INFINITY));
         assert_eq!(row(&trials, &trials).speedup, Interval { mean: 1.0, lo: 1.0, hi: 1.0 });
+        let other = [trial(0.4, 2.0), trial(0.4, 2.0)];
+        assert_eq!(row(&trials, &trials).speedup_over(&row(&other, &trials)), r.speedup);
+        // Half the error in the same time is no other pace; the same error in half the time is.
+        let pace = |seconds: f64| row(&[0.1, 0.3].map(|e| trial(e, seconds)), &trials);
+        assert_eq!(pace(2.0).pace_over(&row(&other, &trials)).mean, 1.0);
+        assert_eq!(pace(1.0).pace_over(&pace(2.0)), Interval { mean: 2.0, lo: 2.0, hi: 2.0 });
+        assert_eq!(Interval { mean: 2.0, lo: 1.5, hi: 12.0 }.as_ratio(), "2.00 [1.50, 12.0]");
+        assert_eq!(Interval { mean: 2.0, lo: 2.0, hi: 2.0 }.in_words(), "2.00");
         assert!(!r.heavy_tailed && row(&[0.1, 0.1, 0.9].map(|e| trial(e, 1.0)), &trials).heavy_tailed);
     }
 

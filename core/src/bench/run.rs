@@ -1,12 +1,12 @@
 //! Runs a plan.
 
-use super::{Plan, ReferencePlan, Row, Subject, Trial};
+use super::{Entrant, Plan, ReferencePlan, Row, Subject, Trial};
 use crate::compare::Reference;
 use crate::estimator::{self, Entry};
 use crate::film::Images;
 use crate::math::SamplerKind;
 use crate::measure::{self, MeasureError, Picture, Region};
-use crate::scene::{Scene, SceneError, build};
+use crate::scene::{EstimatorDoc, Scene, SceneError, build};
 use crate::session::{Batch, Budget, Probe, render};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::Arc;
@@ -64,7 +64,7 @@ pub struct Progress<'a> {
     pub rows: &'a [Row],
 }
 
-/// Runs every estimator on every scene. Rows come scene by scene.
+/// Runs the entrants of every scene. Rows come scene by scene.
 ///
 /// # Errors
 /// When a scene cannot be frozen, is biased on purpose, or a reference does not fit.
@@ -79,38 +79,33 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
         .num_threads(threads)
         .build()
         .map_err(|e| BenchError::Threads { threads, reason: e.to_string() })?;
-    let per_scene = 1 + plan.repeats as usize * plan.estimators.len();
+    let of = plan.subjects.iter().map(|s| 1 + plan.repeats as usize * s.entrants.len()).sum();
     let mut rows = Vec::new();
     let mut done = 0;
     for subject in &plan.subjects {
         // What is biased on a scene has no efficiency there: its error does not fall with time.
-        let unbiased = plan.estimators.iter().filter(|entry| entry.bias(&subject.doc).is_none());
-        let estimators: Vec<_> = unbiased.copied().collect();
-        let runner = Runner::new(subject, &estimators, &plan.estimators, &pool)?;
+        let unbiased = subject.entrants.iter().filter(|entrant| entrant.bias(&subject.doc).is_none());
+        let entrants: Vec<&Entrant> = unbiased.collect();
+        let runner = Runner::new(subject, &entrants, &pool)?;
         let mut report = |next: String, rows: &[Row]| {
-            progress(&Progress { done, of: per_scene * plan.subjects.len(), next, rows });
+            progress(&Progress { done, of, next, rows });
             done += 1;
         };
         report(format!("{}  reference", subject.name), &[]);
         let reference = runner.reference()?;
-        let mut trials = vec![Vec::new(); estimators.len()];
+        let mut trials = vec![Vec::new(); entrants.len()];
         for repeat in 0..plan.repeats {
-            for (entry, trials) in estimators.iter().zip(&mut trials) {
-                report(format!("{}  {} {}/{}", subject.name, entry.id, repeat + 1, plan.repeats), &[]);
-                trials.push(runner.trial(entry, u64::from(repeat), plan.budget, &reference)?);
+            for (entrant, trials) in entrants.iter().zip(&mut trials) {
+                report(format!("{}  {} {}/{}", subject.name, entrant.name, repeat + 1, plan.repeats), &[]);
+                trials.push(runner.trial(entrant, u64::from(repeat), plan.budget, &reference)?);
             }
         }
         let first = rows.len();
-        rows.extend(estimators.iter().zip(&trials).map(|(entry, own)| {
+        rows.extend(entrants.iter().zip(&trials).map(|(entrant, own)| {
             let about = (threads, reference.origin.clone());
-            Row::new(subject.name.clone(), entry.id, own, &trials[0], about)
+            Row::new(subject.name.clone(), entrant.name.clone(), own, &trials[0], about)
         }));
-        progress(&Progress {
-            done,
-            of: per_scene * plan.subjects.len(),
-            next: String::new(),
-            rows: &rows[first..],
-        });
+        progress(&Progress { done, of, next: String::new(), rows: &rows[first..] });
     }
     Ok(rows)
 }
@@ -122,18 +117,13 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(
-        subject: &'a Subject,
-        unbiased: &[&Entry],
-        wanted: &[&Entry],
-        pool: &'a ThreadPool,
-    ) -> Result<Self, BenchError> {
+    fn new(subject: &'a Subject, unbiased: &[&Entrant], pool: &'a ThreadPool) -> Result<Self, BenchError> {
         let scene = subject.name.clone();
         let mut library = subject.library.clone();
         let frozen = pool
             .install(|| build(&subject.doc, &mut library))
             .map_err(|source| BenchError::Scene { scene: scene.clone(), source })?;
-        let biased = wanted.first().and_then(|entry| entry.bias(&subject.doc));
+        let biased = subject.entrants.first().and_then(|entrant| entrant.bias(&subject.doc));
         match biased.filter(|_| unbiased.is_empty()) {
             Some(reason) => Err(BenchError::Biased { scene, reason }),
             None => Ok(Self { subject, scene: Arc::new(frozen), pool }),
@@ -141,9 +131,8 @@ impl<'a> Runner<'a> {
     }
 
     /// A run under a seed of its own.
-    fn batch(&self, entry: &Entry, seed: u64, sampler: SamplerKind, budget: Budget) -> Batch {
-        let mut settings = estimator::Settings::new(&self.subject.doc.estimator, seed);
-        settings.sampler = sampler;
+    fn batch(&self, entry: &Entry, settings: &EstimatorDoc, seed: u64, budget: Budget) -> Batch {
+        let settings = estimator::Settings::new(settings, seed);
         let probe = Probe::new(Arc::clone(&self.scene), entry.kernel, settings);
         render(&probe, self.pool, budget)
     }
@@ -153,7 +142,9 @@ impl<'a> Runner<'a> {
             ReferencePlan::Given(reference) => Ok((**reference).clone()),
             ReferencePlan::Own { estimator, seconds } => {
                 let seed = self.subject.doc.render.seed.wrapping_sub(1);
-                let batch = self.batch(estimator, seed, SamplerKind::Independent, Budget::Seconds(*seconds));
+                let mut settings = self.subject.doc.estimator.clone();
+                settings.sampler = SamplerKind::Independent;
+                let batch = self.batch(estimator, &settings, seed, Budget::Seconds(*seconds));
                 let images = self.pool.install(|| Images::of(&batch.film));
                 let origin = format!("own run of {}, {} samples per pixel", estimator.name, batch.spp);
                 let Batch { film, .. } = batch;
@@ -164,13 +155,13 @@ impl<'a> Runner<'a> {
 
     fn trial(
         &self,
-        entry: &Entry,
+        entrant: &Entrant,
         repeat: u64,
         budget: Budget,
         reference: &Reference,
     ) -> Result<Trial, BenchError> {
         let seed = self.subject.doc.render.seed.wrapping_add(repeat);
-        let batch = self.batch(entry, seed, self.subject.doc.estimator.sampler, budget);
+        let batch = self.batch(entrant.entry, &entrant.settings, seed, budget);
         let images = self.pool.install(|| Images::of(&batch.film));
         let (width, height) = (batch.film.width, batch.film.height);
         let picture = Picture { width, height, pixels: &images.mean };
@@ -182,6 +173,7 @@ impl<'a> Runner<'a> {
             cpu_seconds: batch.cpu_seconds,
             paths: batch.tally.paths,
             lookups: batch.tally.lookups,
+            non_finite: batch.tally.non_finite,
             relmse: measured,
         })
     }

@@ -42,14 +42,16 @@ pub fn label(view: usize) -> String {
         .map_or_else(|| view.to_string(), |v| char::from(b'A' + v).to_string())
 }
 
-/// Okabe and Ito's colours (2008), which every eye tells apart and which stand out on white and on black.
-const COLOURS: [[u8; 3]; 6] = [
+/// Okabe and Ito's colours (2008), which every eye tells apart and which stand out on white and on black, and a grey in place of their black.
+const COLOURS: [[u8; 3]; 8] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
     [0x00, 0x9e, 0x73],
     [0xcc, 0x79, 0xa7],
     [0xe6, 0x9f, 0x00],
     [0x56, 0xb4, 0xe9],
+    [0xf0, 0xe4, 0x42],
+    [0x99, 0x99, 0x99],
 ];
 
 /// The colour of a view in plots, sRGB.

@@ -11,6 +11,7 @@ pub use build::{PlacedGrid, ResourceError, Resources, build};
 pub use camera::Camera;
 pub use doc::*;
 pub use frozen::{NearestSurface, Scene, SceneInfo};
+pub(crate) use placement::{bounds, rotation};
 pub use validate::{Problem, validate};
 
 /// Why a document could not be frozen into a scene.

@@ -4,13 +4,13 @@ use super::PlacementDoc;
 use glam::{Affine3A, EulerRot, Mat3, Quat, Vec3};
 
 /// Turns about x, then y, then z.
-pub(super) fn rotation(rotate_deg: [f32; 3]) -> Quat {
+pub(crate) fn rotation(rotate_deg: [f32; 3]) -> Quat {
     let [x, y, z] = rotate_deg.map(f32::to_radians);
     Quat::from_euler(EulerRot::ZYX, z, y, x)
 }
 
 /// Corners of the unit cube's image.
-pub(super) fn bounds(world_from_unit: &Affine3A) -> (Vec3, Vec3) {
+pub(crate) fn bounds(world_from_unit: &Affine3A) -> (Vec3, Vec3) {
     let mut lo = Vec3::INFINITY;
     let mut hi = Vec3::NEG_INFINITY;
     for corner in 0..8 {

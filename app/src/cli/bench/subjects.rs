@@ -2,9 +2,9 @@
 
 use super::Arguments;
 use crate::cli::{Failure, source};
-use majorant_core::bench::{ReferencePlan, Subject};
+use majorant_core::bench::{Entrant, ReferencePlan, Subject};
 use majorant_core::compare::Reference;
-use majorant_core::estimator;
+use majorant_core::estimator::{self, Entry};
 use majorant_core::io::{embedded, scene_file};
 use std::path::Path;
 
@@ -13,7 +13,7 @@ const REFERENCE_TIMES: f64 = 8.0;
 /// What it takes at least, in seconds.
 const REFERENCE_LEAST: f64 = 4.0;
 
-pub(super) fn load(arguments: &Arguments) -> Result<Vec<Subject>, Failure> {
+pub(super) fn load(arguments: &Arguments, estimators: &[&'static Entry]) -> Result<Vec<Subject>, Failure> {
     let mut names = arguments.scenes.clone();
     if names.is_empty() {
         names = embedded::SCENES.iter().map(|scene| scene.name.to_owned()).collect();
@@ -22,10 +22,10 @@ pub(super) fn load(arguments: &Arguments) -> Result<Vec<Subject>, Failure> {
         let message = "--reference is a picture of one scene: name that scene, or leave --reference out";
         return Err(Failure::Message(message.into()));
     }
-    names.iter().map(|name| subject(name, arguments)).collect()
+    names.iter().map(|name| subject(name, arguments, estimators)).collect()
 }
 
-fn subject(name: &str, arguments: &Arguments) -> Result<Subject, Failure> {
+fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> Result<Subject, Failure> {
     let source = source::load(name)?;
     let doc = scene_file::override_keys(&source.doc, &arguments.set)?;
     let beside = Path::new(name).parent().map(|folder| folder.join("reference.exr"));
@@ -40,7 +40,8 @@ fn subject(name: &str, arguments: &Arguments) -> Result<Subject, Failure> {
                 .unwrap_or((REFERENCE_TIMES * arguments.seconds).max(REFERENCE_LEAST)),
         },
     };
-    Ok(Subject { name: title(name), doc, library: source.resources, reference })
+    let entrants = estimators.iter().map(|entry| Entrant::of(entry, &doc)).collect();
+    Ok(Subject { name: title(name), doc, library: source.resources, entrants, reference })
 }
 
 /// A file called scene.toml goes by its folder.

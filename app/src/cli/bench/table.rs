@@ -1,6 +1,6 @@
 //! Rows as text.
 
-use majorant_core::bench::{Interval, Row};
+use majorant_core::bench::Row;
 use majorant_core::compare::report::words;
 
 const WIDTHS: [usize; 9] = [14, 13, 7, 7, 9, 8, 9, 27, 22];
@@ -17,22 +17,15 @@ pub(super) fn line(row: &Row) -> String {
     let star = if row.heavy_tailed { "*" } else { "" };
     padded([
         row.scene.clone(),
-        row.estimator.to_owned(),
+        row.estimator.clone(),
         words::number(row.spp),
         words::number(row.cpu_seconds),
         format!("{:.3}", row.paths_per_second / 1e6),
         format!("{:.2}", row.lookups_per_path),
         words::number(row.relmse.mean),
-        format!("{}{star}", interval(&row.efficiency)),
-        interval(&row.speedup),
+        format!("{}{star}", row.efficiency.in_words()),
+        row.speedup.in_words(),
     ])
-}
-
-fn interval(i: &Interval) -> String {
-    if i.lo == i.hi {
-        return words::number(i.mean);
-    }
-    format!("{} [{}, {}]", words::number(i.mean), words::number(i.lo), words::number(i.hi))
 }
 
 fn padded(cells: [String; 9]) -> String {

@@ -26,8 +26,11 @@ use super::Experiment;
 use crate::io::export::ExportError;
 use crate::io::scene_file;
 use gather::Gathered;
+pub(crate) use pictures::{encode as encode_png, rgb};
+pub(crate) use row::of_standings;
 pub use row::{Row, rows};
 use std::path::{Path, PathBuf};
+pub(crate) use tables::{cell, text as csv_text};
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -52,7 +55,7 @@ pub enum ReportError {
 }
 
 impl ReportError {
-    fn write(path: &Path, reason: impl ToString) -> Self {
+    pub(crate) fn write(path: &Path, reason: impl ToString) -> Self {
         Self::Write { path: path.display().to_string(), reason: reason.to_string() }
     }
 }

@@ -61,12 +61,17 @@ pub(super) fn painted(view: &Shown<'_>, map: &Map, range: &Range) -> Option<Resu
 }
 
 fn shown(pixels: &[[f32; 3]], size: (usize, usize), view: &ViewDoc) -> Result<Vec<u8>, String> {
-    let display = DisplayTransform::new(view);
-    let bytes: Vec<u8> = pixels.iter().flat_map(|p| display.encode(*p)).collect();
-    encode(&bytes, size)
+    encode(&rgb(pixels, view), size)
 }
 
-fn encode(bytes: &[u8], (width, height): (usize, usize)) -> Result<Vec<u8>, String> {
+/// Linear radiance in the colours of a display, three bytes a pixel.
+pub(crate) fn rgb(pixels: &[[f32; 3]], view: &ViewDoc) -> Vec<u8> {
+    let display = DisplayTransform::new(view);
+    pixels.iter().flat_map(|p| display.encode(*p)).collect()
+}
+
+/// A PNG of three bytes a pixel.
+pub(crate) fn encode(bytes: &[u8], (width, height): (usize, usize)) -> Result<Vec<u8>, String> {
     let mut png = Vec::new();
     PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
         .write_image(bytes, width as u32, height as u32, ExtendedColorType::Rgb8)

@@ -61,7 +61,7 @@ pub fn rows(experiment: &Experiment) -> Vec<Row> {
 }
 
 /// The lines of a table that was computed already.
-pub(super) fn of_standings(experiment: &Experiment, standings: &[Standing]) -> Vec<Row> {
+pub(crate) fn of_standings(experiment: &Experiment, standings: &[Standing]) -> Vec<Row> {
     let row = |s: &Standing| {
         let doc = &experiment.views.iter().find(|(_, v)| v.label == s.label)?.1.doc;
         Some(Row {

@@ -102,11 +102,12 @@ pub(super) fn curves(gathered: &Gathered<'_>) -> Result<String, ReportError> {
 }
 
 /// A number in full precision; nothing for what is none.
-fn cell(value: impl Into<Option<f64>>) -> String {
+pub(crate) fn cell(value: impl Into<Option<f64>>) -> String {
     value.into().filter(|x| x.is_finite()).map_or_else(String::new, |x| x.to_string())
 }
 
-fn text(lines: Vec<Vec<String>>) -> Result<String, ReportError> {
+/// Lines with commas between their cells.
+pub(crate) fn text(lines: Vec<Vec<String>>) -> Result<String, ReportError> {
     // Writing to memory fails for no reason that a person could cure; if it does, it is said all the same.
     let failed = |e: &dyn std::fmt::Display| ReportError::write(Path::new("the table"), e);
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -6,7 +6,7 @@ use crate::medium::Interpolation;
 use serde::{Deserialize, Serialize};
 
 /// The most views of a scene.
-pub const MAX_VIEWS: usize = 6;
+pub const MAX_VIEWS: usize = 8;
 
 /// A wall of views of one scene. View A is the scene itself; `views` are B, C, …
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

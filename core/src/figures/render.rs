@@ -1,0 +1,71 @@
+//! Renders a row of a figure: its panels, and what they are held against.
+
+use super::{FiguresError, Options, Strip};
+use crate::compare::{self, Experiment, Finished, Reference, Standing, View};
+use crate::io::Library;
+use crate::measure;
+use crate::scene::SceneDoc;
+use std::sync::Arc;
+
+/// A row of a figure at its end.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// What it is.
+    pub strip: &'static Strip,
+    /// Its scene, with the scene's own settings.
+    pub scene: SceneDoc,
+    /// The panels as views, with the reference.
+    pub experiment: Experiment,
+    /// Their numbers, in the same order.
+    pub standings: Vec<Standing>,
+    /// The reference as a view.
+    pub reference: View,
+    /// What wants to be known, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Renders the panels of a strip and its reference. `progress` hears of the share of the panels' and of the
+/// reference's work that is done, each from 0 to 1.
+///
+/// # Errors
+/// When a setting does not fit, or the scene cannot be rendered.
+pub fn render(
+    strip: &'static Strip,
+    options: &Options,
+    mut progress: impl FnMut(f64, f64),
+) -> Result<Rendered, FiguresError> {
+    let scene = strip.scene_doc(options)?;
+    let run = |doc: &SceneDoc, progress: &mut dyn FnMut(f64)| {
+        compare::run(doc, Library::default(), |p| progress(p.fraction))
+            .map_err(|source| FiguresError::Render { figure: strip.name, source })
+    };
+    let panels = strip.panels_doc(&scene, options)?;
+    let Finished { mut experiment, mut notes } = run(&panels, &mut |done| progress(done, 0.0))?;
+    let doc = strip.reference_doc(&scene, options)?;
+    let finished = run(&doc, &mut |done| progress(1.0, done))?;
+    notes.extend(finished.notes.into_iter().filter(|n| !notes.contains(n)).collect::<Vec<_>>());
+    let (_, reference) = finished
+        .experiment
+        .views
+        .into_iter()
+        .next()
+        .ok_or(FiguresError::Render { figure: strip.name, source: compare::RunError::Stopped })?;
+    experiment.reference = Some(Arc::new(held_against(&reference)));
+    let measures = ["relmse", "rmse"].into_iter().filter_map(measure::find).collect();
+    let standings = experiment.rank(measures);
+    Ok(Rendered { strip, scene, experiment, standings, reference, notes })
+}
+
+impl Rendered {
+    /// The reference as what errors are measured against.
+    #[must_use]
+    pub fn held_against(&self) -> Reference {
+        held_against(&self.reference)
+    }
+}
+
+fn held_against(view: &View) -> Reference {
+    let id = &view.doc.estimator.id;
+    let name = crate::estimator::find(id).map_or(id.as_str(), |e| e.name);
+    Reference::of(&view.snapshot, format!("{name}, {} samples per pixel", view.snapshot.spp))
+}

@@ -1,0 +1,95 @@
+//! The study that the report leaves to future work: estimators and ways to keep their books at equal time, with
+//! intervals.
+//!
+//! ```text
+//!   VARIANTS (an estimator and settings) ──► bench (turns, repeats) ──► Row each ──► TOPICS ──► Answer each
+//! ```
+//!
+//! Every variant runs on the figure's scene with the scene's own settings, for the same wall-clock time, several
+//! times over, and is measured against the figure's reference. Answers are ratios of efficiency, 1/(relMSE · CPU
+//! seconds), or of paths per CPU second, with 95 % intervals from the scatter of the repeats.
+
+mod answer;
+mod conclusion;
+mod matrix;
+mod question;
+mod variant;
+
+pub use answer::{Answer, Outcome};
+pub use conclusion::conclusion;
+pub use matrix::{Line, Matrix};
+pub use question::{Question, TOPICS, Topic, Yardstick, questions};
+pub use variant::{VARIANTS, Variant, name};
+
+use super::render::Rendered;
+use super::{FiguresError, Options, StudyOptions};
+use crate::bench::{self, Plan, Progress, ReferencePlan, Row, Subject};
+use crate::io::Library;
+use crate::session::Budget;
+use serde::Serialize;
+
+/// What came of one scene.
+#[derive(Clone, Debug, Serialize)]
+pub struct SceneStudy {
+    /// The row of the figure.
+    pub scene: &'static str,
+    /// The scene in a few words.
+    pub about: &'static str,
+    /// What every variant did.
+    pub rows: Vec<Row>,
+    /// Variants that did not run.
+    pub left_out: Vec<LeftOut>,
+    /// What was asked of them.
+    pub answers: Vec<Answer>,
+}
+
+/// A variant that did not run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// Its id.
+    pub variant: &'static str,
+    /// Why.
+    pub reason: String,
+}
+
+/// Runs every variant on the scene of a figure's row.
+///
+/// # Errors
+/// When the scene cannot be frozen, or threads are refused.
+pub fn run(
+    rendered: &Rendered,
+    study: StudyOptions,
+    options: &Options,
+    progress: impl FnMut(&Progress),
+) -> Result<SceneStudy, FiguresError> {
+    let (mut entrants, mut left_out) = (Vec::new(), Vec::new());
+    for variant in VARIANTS {
+        match variant.entrant(&rendered.scene) {
+            Ok(entrant) => entrants.push(entrant),
+            Err(reason) => left_out.push(LeftOut { variant: variant.id, reason }),
+        }
+    }
+    let plan = Plan {
+        subjects: vec![Subject {
+            name: rendered.strip.name.to_owned(),
+            doc: rendered.scene.clone(),
+            library: Library::default(),
+            entrants,
+            reference: ReferencePlan::Given(Box::new(rendered.held_against())),
+        }],
+        budget: Budget::Seconds(study.seconds),
+        repeats: study.repeats,
+        threads: options.threads,
+    };
+    let rows = bench::run(&plan, progress)?;
+    let answers = questions().filter_map(|question| question.answer(&rows)).collect();
+    Ok(SceneStudy { scene: rendered.strip.name, about: rendered.strip.about, rows, left_out, answers })
+}
+
+impl SceneStudy {
+    /// Its answer to a question.
+    #[must_use]
+    pub fn answer(&self, question: &Question) -> Option<&Answer> {
+        self.answers.iter().find(|answer| answer.question == question.id)
+    }
+}

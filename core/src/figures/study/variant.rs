@@ -1,0 +1,130 @@
+//! Who takes part.
+
+use crate::bench::Entrant;
+use crate::estimator;
+use crate::io::scene_file;
+use crate::scene::SceneDoc;
+
+/// An estimator with settings.
+#[derive(Clone, Copy, Debug)]
+pub struct Variant {
+    /// How it is called in tables for scripts.
+    pub id: &'static str,
+    /// How it is called by people.
+    pub name: &'static str,
+    /// The estimator's id.
+    pub estimator: &'static str,
+    /// What differs from the scene's settings.
+    pub set: &'static [&'static str],
+}
+
+const WEIGHTED: &str = "estimator.absorption=weighted";
+const ANALOGUE: &str = "estimator.absorption=analogue";
+
+const fn weighted(id: &'static str, name: &'static str) -> Variant {
+    Variant { id, name, estimator: id, set: &[WEIGHTED] }
+}
+
+const fn uni_nee_mis(id: &'static str, name: &'static str, set: &'static [&'static str]) -> Variant {
+    Variant { id, name, estimator: "uni-nee-mis", set }
+}
+
+/// Every variant; the first is the default of this program.
+pub static VARIANTS: &[Variant] = &[
+    weighted("uni-nee-mis", "Uni+NEE MIS"),
+    uni_nee_mis("uni-nee-mis-analogue", "Uni+NEE MIS, analogue absorption", &[ANALOGUE]),
+    weighted("mitsuba2-volpath", "Mitsuba 2 volpath"),
+    weighted("nee", "NEE"),
+    weighted("spectral-mis", "Spectral MIS"),
+    Variant {
+        id: "spectral-mis-analogue",
+        name: "Spectral MIS, analogue absorption",
+        estimator: "spectral-mis",
+        set: &[ANALOGUE],
+    },
+    weighted("independent", "Independent tracking"),
+    uni_nee_mis(
+        "uni-nee-mis-pairwise",
+        "Uni+NEE MIS, pairwise quotients",
+        &[WEIGHTED, "estimator.bookkeeping=pairwise"],
+    ),
+    uni_nee_mis(
+        "uni-nee-mis-apart-f64",
+        "Uni+NEE MIS, f and p apart in f64",
+        &[WEIGHTED, "estimator.bookkeeping=apart-f64"],
+    ),
+    uni_nee_mis(
+        "uni-nee-mis-apart-f32",
+        "Uni+NEE MIS, f and p apart in f32",
+        &[WEIGHTED, "estimator.bookkeeping=apart-f32"],
+    ),
+];
+
+/// A variant's name.
+#[must_use]
+pub fn name(id: &str) -> &str {
+    VARIANTS.iter().find(|v| v.id == id).map_or(id, |v| v.name)
+}
+
+impl Variant {
+    /// The variant as an entrant of a benchmark, with a scene's other settings.
+    ///
+    /// # Errors
+    /// Why it cannot run on that scene, as a sentence.
+    pub fn entrant(&self, scene: &SceneDoc) -> Result<Entrant, String> {
+        let mut edits = vec![format!("estimator.id={:?}", self.estimator)];
+        edits.extend(self.set.iter().map(|edit| (*edit).to_owned()));
+        let doc = scene_file::override_keys(scene, &edits).map_err(|e| e.to_string())?;
+        if let Some(problem) = estimator::validate(&doc).first() {
+            return Err(problem.to_string());
+        }
+        let entry = estimator::find(self.estimator).ok_or("there is no such estimator")?;
+        match entry.bias(&doc).or_else(|| (entry.infinite_variance)(&doc)) {
+            Some(reason) => Err(reason.to_owned()),
+            None => Ok(Entrant { name: self.id.to_owned(), entry, settings: doc.estimator }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::question::questions;
+    use super::*;
+    use crate::figures::{FIGURES, Options};
+    use crate::scene::Absorption;
+
+    #[test]
+    fn a_variant_has_its_settings_and_one_that_cannot_be_says_why() {
+        let scene = SceneDoc::default();
+        let analogue = VARIANTS.iter().find(|v| v.id == "uni-nee-mis-analogue").unwrap();
+        let entrant = analogue.entrant(&scene).unwrap();
+        assert_eq!((entrant.entry.id, entrant.settings.absorption), ("uni-nee-mis", Absorption::Analogue));
+        let gone = Variant { estimator: "magic", ..*analogue };
+        assert!(gone.entrant(&scene).unwrap_err().contains("`magic`"));
+        let unknown = Variant { set: &["estimator.magic=3"], ..*analogue };
+        assert!(unknown.entrant(&scene).unwrap_err().contains("magic"));
+        let mut clamped = scene.clone();
+        clamped.medium.majorant.factor = 0.5;
+        clamped.medium.majorant.when_exceeded = crate::scene::WhenExceeded::Clamp;
+        assert!(analogue.entrant(&clamped).unwrap_err().contains("clamped"));
+    }
+
+    #[test]
+    fn every_variant_runs_on_every_scene_under_a_name_of_its_own() {
+        for strip in FIGURES.iter().flat_map(|f| f.strips) {
+            let scene = strip.scene_doc(&Options::default()).unwrap();
+            let mut settings: Vec<_> = Vec::new();
+            for variant in VARIANTS {
+                let entrant = variant.entrant(&scene).unwrap();
+                assert_eq!(name(variant.id), variant.name);
+                assert!(!settings.contains(&entrant.settings), "{} is another's double", variant.id);
+                settings.push(entrant.settings);
+            }
+        }
+        for question in questions() {
+            for id in [question.variant, question.against] {
+                assert!(VARIANTS.iter().any(|v| v.id == id), "{id}");
+            }
+        }
+    }
+}
