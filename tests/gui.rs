@@ -5,6 +5,8 @@
 mod files;
 #[path = "gui/harness.rs"]
 mod harness;
+#[path = "gui/laboratory.rs"]
+mod laboratory;
 #[path = "gui/self_check.rs"]
 mod self_check;
 #[path = "gui/speed.rs"]

@@ -39,6 +39,7 @@ impl LabApp {
                 state: &self.state,
                 stats: &self.stats,
                 latency: &self.latency,
+                factor_curve: &self.factor_curve,
                 settings: &self.settings,
                 grids: &self.grids,
                 commands,

@@ -69,6 +69,10 @@ pub enum Command {
     ShowMajorants(Option<f32>),
     /// Shows the slice in the middle, or hides it.
     ToggleMajorants,
+    /// Measures what the majorant's factor costs in this scene.
+    MeasureFactorCurve,
+    /// Ends that.
+    CancelFactorCurve,
     /// Larger type, for projectors.
     ToggleLargeType,
     /// Takes the last edit back.

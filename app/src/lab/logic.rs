@@ -9,7 +9,7 @@ use crate::view::image_view::ImageView;
 use crate::wall::presets::PRESETS;
 use crate::wall::{Tool, WallEdit, edited};
 use egui::{Context, ViewportCommand};
-use majorant_core::scene::Arrangement;
+use majorant_core::scene::{Arrangement, SceneDoc};
 use majorant_core::session::{Status, ViewId};
 use std::path::Path;
 use std::time::Duration;
@@ -33,6 +33,7 @@ impl LabApp {
         }
         self.developer.order(self.wall.order());
         self.self_check.poll();
+        self.factor_curve.poll();
         while let Some(outcome) = self.tasks.take() {
             self.finish(outcome);
         }
@@ -187,6 +188,14 @@ impl LabApp {
                 self.self_check.start(&name, &doc, move || repaint.request_repaint());
             }
             Command::CancelSelfCheck => self.self_check.cancel(),
+            Command::MeasureFactorCurve => {
+                let selected = self.wall.selected();
+                let of_view = |doc: &SceneDoc| doc.view_doc(selected).unwrap_or_else(|| doc.clone());
+                let (doc, resolved) = (of_view(self.document.doc()), of_view(&self.document.resolved()));
+                let repaint = self.repaint.clone();
+                self.factor_curve.start(&doc, resolved, move || repaint.request_repaint());
+            }
+            Command::CancelFactorCurve => self.factor_curve.cancel(),
             Command::ToggleLogLobe => self.settings.log_lobe ^= true,
             Command::Theme(theme) => self.settings.theme = theme,
             Command::ListGrids(file) => self.list_grids(file),

@@ -130,7 +130,7 @@ impl LabApp {
             }
         }
         ui.separator();
-        for count in [1, 2, 3, 4, 6] {
+        for count in [1, 2, 3, 4, 6, 8] {
             let text = if count == 1 { "One view".to_owned() } else { format!("{count} views") };
             if ui.radio(self.doc().view_count() == count, text).clicked() {
                 commands.push(Command::Wall(WallEdit::Count(count)));

@@ -13,10 +13,12 @@ mod backend;
 mod columns;
 mod command;
 mod dialogs;
+mod factor_curve;
 mod files;
 mod help;
 mod icon;
 pub mod latency;
+mod loading;
 mod logic;
 mod menu;
 mod messages;
@@ -29,6 +31,7 @@ mod tasks;
 mod ui;
 
 pub use command::{Answer, Command, Purpose};
+pub use factor_curve::FactorCurve;
 pub use latency::Latency;
 pub use messages::{Message, Messages, Severity};
 pub use run::{LabError, LabOptions, run};
@@ -47,7 +50,7 @@ use majorant_core::scene::SceneDoc;
 use majorant_core::session::{Session, ViewId, ViewState};
 use self_check::SelfCheck;
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tasks::Tasks;
 
 /// The window: what is open, what renders, what is shown.
@@ -73,6 +76,9 @@ pub struct LabApp {
     dialog: Option<Dialog>,
     shortcuts_open: bool,
     self_check: SelfCheck,
+    factor_curve: FactorCurve,
+    /// Since when the scene is being built, if it is.
+    building_since: Option<Instant>,
     tasks: Tasks,
     grids: GridLists,
     screenshot: Option<Screenshot>,
@@ -141,6 +147,8 @@ impl LabApp {
             dialog: None,
             shortcuts_open: false,
             self_check: SelfCheck::default(),
+            factor_curve: FactorCurve::default(),
+            building_since: None,
             tasks: Tasks::new(move || repaint.request_repaint()),
             grids: GridLists::default(),
             screenshot: options.screenshot.clone().map(|path| Screenshot::new(path, options.after_seconds)),
@@ -202,6 +210,12 @@ impl LabApp {
         self.submit_if_needed();
     }
 
+    /// What the majorant's factor costs, as far as it was measured.
+    #[must_use]
+    pub fn factor_curve(&self) -> &FactorCurve {
+        &self.factor_curve
+    }
+
     /// The self-check.
     #[must_use]
     pub fn self_check(&self) -> &SelfCheck {
@@ -241,7 +255,7 @@ impl LabApp {
 
 impl eframe::App for LabApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
-        let started = std::time::Instant::now();
+        let started = Instant::now();
         // On a software rasteriser a frame costs tens of milliseconds: leave most of the machine to rendering.
         let frame_seconds = frame.info().cpu_usage.unwrap_or(0.0);
         self.developer.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
@@ -250,7 +264,7 @@ impl eframe::App for LabApp {
     }
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        let started = std::time::Instant::now();
+        let started = Instant::now();
         let commands = self.window_ui(ui);
         if !commands.is_empty() {
             for command in commands {

@@ -1,5 +1,6 @@
 //! The majorant: what free flights are sampled from. It costs or saves time, not truth — unless clamped.
 
+use super::factor_curve::factor_curve_ui;
 use super::{Column, Cx, Panel};
 use crate::lab::Command;
 use crate::theme::Palette;
@@ -96,6 +97,7 @@ impl Panel for Majorant {
                 "Null collisions fill σt up to μ: σn = μ − σt. They change the cost, not the picture.",
             ),
         }
+        factor_curve_ui(ui, cx);
     }
 }
 

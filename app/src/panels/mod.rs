@@ -11,6 +11,7 @@ mod display;
 mod emission;
 mod estimator;
 mod extinction;
+mod factor_curve;
 mod light_fields;
 mod lights;
 mod majorant;
@@ -21,7 +22,7 @@ mod placement;
 mod render;
 mod scene;
 
-use crate::lab::{Command, GridLists, Latency, Stats};
+use crate::lab::{Command, FactorCurve, GridLists, Latency, Stats};
 use crate::model::Settings;
 use crate::theme::Palette;
 use egui::{Color32, Ui};
@@ -40,6 +41,8 @@ pub struct Cx<'a> {
     pub stats: &'a Stats,
     /// How soon the window has answered lately.
     pub latency: &'a Latency,
+    /// What the majorant's factor costs, as far as it was measured.
+    pub factor_curve: &'a FactorCurve,
     /// Preferences.
     pub settings: &'a Settings,
     /// Names of the grids in files, as far as they were listed.

@@ -12,7 +12,7 @@ use majorant_core::measure::MEASURES;
 use majorant_core::scene::{Arrangement, Fairness, Layer, Pair, ReferenceDoc, SceneDoc};
 
 /// How many views can be chosen at once.
-const COUNTS: [usize; 5] = [1, 2, 3, 4, 6];
+const COUNTS: [usize; 6] = [1, 2, 3, 4, 6, 8];
 
 impl Wall {
     /// Draws the bar.

@@ -1,7 +1,7 @@
 //! Comparisons that are set up already: the report's figures, and a bias to be found.
 
 use majorant_core::io::{embedded, scene_file};
-use majorant_core::scene::{ContenderDoc, Fairness, ReferenceDoc, SceneDoc, WhenExceeded};
+use majorant_core::scene::{Absorption, ContenderDoc, Fairness, ReferenceDoc, SceneDoc, WhenExceeded};
 
 /// A comparison that is set up already.
 pub struct Preset {
@@ -33,6 +33,35 @@ pub static PRESETS: &[Preset] = &[
         about: "A small light beside a dense cloud: unidirectional sampling fails, Uni+NEE MIS does not",
         scene: "cloud-sidelit",
         set_up: |doc| figure(doc, &["spectral-mis", "nee", "uni-nee-mis"], "nee"),
+    },
+    Preset {
+        name: "Figure 4: the noise of absorption",
+        about: "Ending paths where they are absorbed against weighting them by the albedo, 64 samples per pixel: the \
+                same mean, less noise",
+        scene: "homogeneous-absorption",
+        set_up: absorption,
+    },
+    Preset {
+        name: "The older integrator",
+        about: "Mitsuba 2's volpath, one component a path, against Uni+NEE MIS over all of them, at equal time",
+        scene: "plume-spectral",
+        set_up: |doc| {
+            let mut doc = figure(doc, &["mitsuba2-volpath", "uni-nee-mis"], "uni-nee-mis");
+            doc.render.spp = None;
+            doc.compare.fairness = Fairness::Time;
+            doc
+        },
+    },
+    Preset {
+        name: "Lanterns in the fog",
+        about: "Free flights against distances drawn towards the lamps, at equal time",
+        scene: "lantern",
+        set_up: |doc| {
+            let mut doc = figure(doc, &["uni-nee-mis", "equiangular-mis"], "equiangular-mis");
+            doc.render.spp = None;
+            doc.compare.fairness = Fairness::Time;
+            doc
+        },
     },
     Preset {
         name: "A bias to be found",
@@ -72,6 +101,17 @@ fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
     }
     doc.compare.reference =
         ReferenceDoc::Render { estimator: reference.into(), spp: Some(1024), relative_error: None };
+    doc
+}
+
+/// Views that differ in what absorption does, and in nothing else.
+fn absorption(doc: SceneDoc) -> SceneDoc {
+    let id = doc.estimator.id.clone();
+    let mut doc = figure(doc, &[&id, &id], "uni-nee-mis");
+    doc.estimator.absorption = Absorption::Analogue;
+    for view in &mut doc.compare.views {
+        view.estimator.absorption = Absorption::Weighted;
+    }
     doc
 }
 

@@ -1,7 +1,7 @@
 //! Equal-time benchmarks: how much certainty does a second buy?
 //!
 //! ```text
-//!   Plan (scenes × estimators × repeats) ──► trials, estimators taking turns ──► Row (means, intervals)
+//!   Plan (scenes × entrants × repeats) ──► trials, entrants taking turns ──► Row (means, intervals)
 //! ```
 //!
 //! The figure of merit is the efficiency 1/(relMSE · CPU seconds): it does not depend on how long a run
@@ -10,11 +10,13 @@
 //! their scatter gives the intervals.
 
 mod csv;
+mod factor_curve;
 mod plan;
 mod row;
 mod run;
 
 pub use csv::csv;
-pub use plan::{Plan, ReferencePlan, Subject};
+pub use factor_curve::{FACTORS, FactorPoint, factor_curve};
+pub use plan::{Entrant, Plan, ReferencePlan, Subject};
 pub use row::{Interval, Row, Trial};
 pub use run::{BenchError, Progress, run};

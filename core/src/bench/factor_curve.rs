@@ -1,0 +1,139 @@
+//! What the majorant's factor costs, and what it does to noise and truth.
+//!
+//! The same small picture is made at every factor of [`FACTORS`], as independent batches. Above 1 null collisions are
+//! added: look-ups rise, noise hardly changes. Below 1 collisions exceed the majorant: weighted, the mean stays and the
+//! variance grows; clamped, the noise stays and the mean goes wrong.
+
+use crate::check::{BATCHES, Batches, CheckError, Layout, Plan, own_scene};
+use crate::estimator::{self, Kernel, Settings};
+use crate::io::Library;
+use crate::scene::{Scene, SceneDoc, WhenExceeded, build};
+use crate::transport::Wanted;
+
+/// The factors of a curve.
+pub const FACTORS: [f32; 10] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.26, 1.6, 2.5, 4.0, 8.0];
+
+/// Paths per point, at least; twelve times as many make what the mean is held against.
+const PATHS: u64 = 100_000;
+const REFERENCE: u64 = 12;
+
+/// A picture at one factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FactorPoint {
+    /// The majorant over the largest extinction.
+    pub factor: f32,
+    /// Look-ups of the medium per path: what it costs.
+    pub lookups_per_path: f64,
+    /// Share of look-ups at which the extinction exceeds the majorant.
+    pub exceeded: f64,
+    /// Variance of one path's contribution to the image's mean, over its square.
+    pub variance: f64,
+    /// The image's mean over what it should be, less one.
+    pub bias: f64,
+    /// Standard error of that.
+    pub bias_error: f64,
+}
+
+/// Measures the curve of a scene under its own estimator, point by point; `Ok(None)` if it was cancelled. The mean is
+/// held against a longer run at factor 1, which bounds; the document's own choice of what happens where the majorant
+/// is exceeded is kept.
+///
+/// # Errors
+/// When the scene cannot be frozen.
+pub fn factor_curve(
+    name: &str,
+    doc: &SceneDoc,
+    library: Library,
+    wanted: Wanted<'_>,
+    mut on_point: impl FnMut(FactorPoint),
+) -> Result<Option<()>, CheckError> {
+    let case = own_scene(name, doc, library);
+    let mut library = case.library;
+    let Some(entry) = estimator::find(&case.doc.estimator.id) else { return Ok(Some(())) };
+    let mut picture = |factor: f32, seed: u64, paths: u64, clamped: bool| {
+        let mut doc = case.doc.clone();
+        doc.medium.majorant.factor = factor;
+        if !clamped {
+            doc.medium.majorant.when_exceeded = WhenExceeded::Weighted;
+        }
+        let scene = build(&doc, &mut library)
+            .map_err(|source| CheckError::Build { name: name.to_owned(), source })?;
+        let settings = Settings::new(&doc.estimator, doc.render.seed.wrapping_add(seed));
+        Ok::<_, CheckError>(render(&scene, entry.kernel, &settings, paths, wanted))
+    };
+    let Some(reference) = picture(1.0, u64::MAX / 2, REFERENCE * PATHS, false)? else { return Ok(None) };
+    let (truth, uncertainty) = reference.whole();
+    for (seed, factor) in (1..).zip(FACTORS) {
+        let Some(batches) = picture(factor, seed, PATHS, true)? else { return Ok(None) };
+        let (mean, error) = batches.whole();
+        let (paths, lookups) = (batches.paths as f64, batches.lookups as f64);
+        on_point(FactorPoint {
+            factor,
+            lookups_per_path: lookups / paths,
+            exceeded: batches.exceeded as f64 / lookups.max(1.0),
+            variance: (error / truth).powi(2) * paths,
+            bias: mean / truth - 1.0,
+            bias_error: error.hypot(uncertainty) / truth.abs(),
+        });
+    }
+    Ok(Some(()))
+}
+
+fn render(
+    scene: &Scene,
+    kernel: Kernel,
+    settings: &Settings,
+    paths: u64,
+    wanted: Wanted<'_>,
+) -> Option<Batches> {
+    let per_sample = u64::from(scene.width) * u64::from(scene.height) * BATCHES as u64;
+    let spp = paths.div_ceil(per_sample);
+    Batches::render(&Plan { scene, kernel, settings, layout: Layout::WHOLE, first_sample: 0, spp }, wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::scene_file;
+
+    fn curve(when_exceeded: &str) -> Vec<FactorPoint> {
+        let doc = scene_file::parse(
+            &format!(
+                "majorant = 1
+                [film]
+                width = 12
+                height = 12
+                [medium]
+                extinction = {{ rgb = [3.0, 2.0, 1.0] }}
+                albedo = 0.8
+                majorant = {{ when_exceeded = \"{when_exceeded}\" }}
+                [[lights]]
+                kind = \"environment\"
+                visible = false
+                [estimator]
+                mode = \"rgb\""
+            ),
+            "curve",
+        );
+        let mut points = Vec::new();
+        let done =
+            factor_curve("curve", &doc.unwrap(), Library::default(), Wanted::ALWAYS, |p| points.push(p));
+        assert_eq!(done.unwrap(), Some(()));
+        points
+    }
+
+    #[test]
+    fn cost_rises_above_one_and_below_it_noise_or_bias() {
+        let [weighted, clamped] = ["weighted", "clamp"].map(curve);
+        assert_eq!(weighted.len(), FACTORS.len());
+        for (w, c) in weighted.iter().zip(&clamped) {
+            assert!(w.bias.abs() < 5.0 * w.bias_error, "{w:?}");
+            assert_eq!(w.exceeded > 0.0, w.factor < 1.0, "{w:?}");
+            assert_eq!(c.bias.abs() > 5.0 * c.bias_error, c.factor < 1.0, "{c:?}");
+        }
+        let at = |factor: f32| weighted.iter().find(|p| p.factor == factor).unwrap();
+        assert!(at(8.0).lookups_per_path > 4.0 * at(1.0).lookups_per_path);
+        assert!(at(0.4).variance > 1.5 * at(1.0).variance, "{:?} {:?}", at(0.4), at(1.0));
+        assert!(at(8.0).variance < 1.5 * at(1.0).variance, "{:?} {:?}", at(8.0), at(1.0));
+    }
+}

@@ -1,0 +1,65 @@
+//! The axes of an estimate, and what the lab measures about them.
+
+use super::harness::{click, doc, lab, open, wait};
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT, Queryable};
+use majorant_core::bench::FACTORS;
+use majorant_core::estimator::{Axis, REGISTRY};
+use majorant_core::light::LightSelection;
+use majorant_core::scene::{Absorption, Bookkeeping, DistanceSampling, Heuristic};
+
+#[test]
+fn every_axis_is_chosen_by_name() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "Estimator");
+    click(&mut lab, Role::Button, "Distances: Split");
+    click(&mut lab, Role::Button, "Absorption: Roulette");
+    click(&mut lab, Role::Button, "Lights: Power");
+    open(&mut lab, "Combination");
+    click(&mut lab, Role::Button, "Heroes: Power");
+    click(&mut lab, Role::Button, "Techniques: Max");
+    click(&mut lab, Role::Button, "Books: f64");
+    let e = &doc(&lab).estimator;
+    assert_eq!(
+        (e.distances, e.absorption, e.lights),
+        (DistanceSampling::Decomposition, Absorption::Roulette, LightSelection::Power)
+    );
+    assert_eq!((e.heuristics.components, e.heuristics.techniques), (Heuristic::Power, Heuristic::Maximum));
+    assert_eq!(e.bookkeeping, Bookkeeping::ApartF64);
+    let generation = lab.state().state().generation;
+    wait(&mut lab, "a picture of all that", |app| {
+        app.shown().is_some_and(|s| s.generation >= generation && s.spp >= 1)
+    });
+}
+
+#[test]
+fn a_choice_that_an_estimator_does_not_have_is_greyed_out() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "Estimator");
+    for entry in REGISTRY {
+        click(&mut lab, Role::RadioButton, entry.name);
+        for (axis, label) in [(Axis::Distances, "Distances: Split"), (Axis::Lights, "Lights: Power")] {
+            let node = lab.get_by_role_and_label(Role::Button, label);
+            assert_eq!(
+                node.accesskit_node().is_disabled(),
+                entry.unused(axis).is_some(),
+                "{} {label}",
+                entry.id
+            );
+        }
+    }
+}
+
+#[test]
+fn the_curve_of_the_factor_is_measured_and_says_of_what() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "Majorant");
+    open(&mut lab, "Cost and truth by factor");
+    click(&mut lab, Role::Button, "Measure");
+    wait(&mut lab, "the curve", |app| !app.factor_curve().is_running());
+    let curve = lab.state().factor_curve();
+    assert_eq!((curve.points().len(), curve.error()), (FACTORS.len(), None));
+    assert!(curve.is_of(doc(&lab)));
+    click(&mut lab, Role::Button, "Absorption: Analogue");
+    assert!(!lab.state().factor_curve().is_of(doc(&lab)));
+}
