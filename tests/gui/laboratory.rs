@@ -3,10 +3,11 @@
 use super::harness::{click, doc, lab, open, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
+use majorant::lab::Command;
 use majorant_core::bench::FACTORS;
 use majorant_core::estimator::{Axis, REGISTRY};
 use majorant_core::light::LightSelection;
-use majorant_core::scene::{Absorption, Bookkeeping, DistanceSampling, Heuristic};
+use majorant_core::scene::{Absorption, Bookkeeping, DistanceSampling, Heuristic, SceneDoc};
 
 #[test]
 fn every_axis_is_chosen_by_name() {
@@ -62,4 +63,14 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     assert!(curve.is_of(doc(&lab)));
     click(&mut lab, Role::Button, "Absorption: Analogue");
     assert!(!lab.state().factor_curve().is_of(doc(&lab)));
+
+    // A black picture has no relative noise; that is said instead of drawn.
+    let black = SceneDoc { lights: Vec::new(), ..doc(&lab).clone() };
+    lab.state_mut().request(Command::Edit(Box::new(black)));
+    lab.run_steps(2);
+    click(&mut lab, Role::Button, "Measure");
+    wait(&mut lab, "the curve of nothing", |app| !app.factor_curve().is_running());
+    lab.run_steps(2);
+    assert!(lab.state().factor_curve().is_of(doc(&lab)));
+    assert!(lab.query_by_label_contains("Nothing to compare").is_some());
 }

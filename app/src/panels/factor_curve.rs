@@ -10,6 +10,7 @@ use egui_plot::{
 };
 use majorant_core::bench::{FACTORS, FactorPoint};
 
+const NOTHING: &str = "Nothing to compare: the picture is black, or has no noise at all.";
 const HEIGHT: f32 = 120.0;
 /// What is worse is drawn at the edge: it would flatten everything else.
 const MOST_RATIO: f64 = 1e3;
@@ -53,6 +54,11 @@ pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             }
             return;
         };
+        // Ratios to nothing are not numbers.
+        if !(one.variance > 0.0 && one.variance.is_finite()) {
+            hint(ui, NOTHING);
+            return;
+        }
         let factor = cx.draft.medium.majorant.factor;
         relative_ui(ui, points, one, factor);
         bias_ui(ui, points, factor);
