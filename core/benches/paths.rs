@@ -9,7 +9,9 @@ use glam::Vec3;
 use majorant_core::estimator::{Entry, PathIndex, REGISTRY, Settings, find};
 use majorant_core::io::Library;
 use majorant_core::math::SamplerKind;
-use majorant_core::scene::{DensityDoc, DirectionSampling, GridRef, Mode, Scene, SceneDoc, build};
+use majorant_core::scene::{
+    DensityDoc, DirectionSampling, GridRef, LightSampling, Mode, Scene, SceneDoc, build,
+};
 use majorant_core::transport::Wanted;
 
 /// Paths of one measurement, spread over the picture.
@@ -49,11 +51,15 @@ fn options(c: &mut Criterion) {
     let Some(entry) = find("uni-nee-mis") else { return };
     let mut group = c.benchmark_group("options/plume-spectral");
     group.throughput(Throughput::Elements(u64::from(PATHS)));
-    let edits: [(&str, Edit); 5] = [
+    let edits: [(&str, Edit); 6] = [
         ("spectral", |_| {}),
         ("rgb", |d| d.estimator.mode = Mode::Rgb),
         ("lattice", |d| d.estimator.sampler = SamplerKind::Lattice),
         ("guided", |d| d.estimator.directions = DirectionSampling::TowardsLights),
+        ("product", |d| {
+            d.estimator.directions = DirectionSampling::Product;
+            d.estimator.light_sampling = LightSampling::Product;
+        }),
         ("global majorant", |d| d.medium.majorant.resolution = Some(1)),
     ];
     for (name, edit) in edits {

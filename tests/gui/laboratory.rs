@@ -7,7 +7,9 @@ use majorant::lab::Command;
 use majorant_core::bench::FACTORS;
 use majorant_core::estimator::{Axis, REGISTRY};
 use majorant_core::light::LightSelection;
-use majorant_core::scene::{Absorption, Bookkeeping, DistanceSampling, Heuristic, SceneDoc};
+use majorant_core::scene::{
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristic, LightSampling, SceneDoc,
+};
 
 #[test]
 fn every_axis_is_chosen_by_name() {
@@ -16,6 +18,8 @@ fn every_axis_is_chosen_by_name() {
     click(&mut lab, Role::Button, "Distances: Split");
     click(&mut lab, Role::Button, "Absorption: Roulette");
     click(&mut lab, Role::Button, "Lights: Power");
+    click(&mut lab, Role::Button, "Aim: Product");
+    click(&mut lab, Role::Button, "Directions: Product");
     open(&mut lab, "Combination");
     click(&mut lab, Role::Button, "Heroes: Power");
     click(&mut lab, Role::Button, "Techniques: Max");
@@ -26,6 +30,7 @@ fn every_axis_is_chosen_by_name() {
         (DistanceSampling::Decomposition, Absorption::Roulette, LightSelection::Power)
     );
     assert_eq!((e.heuristics.components, e.heuristics.techniques), (Heuristic::Power, Heuristic::Maximum));
+    assert_eq!((e.light_sampling, e.directions), (LightSampling::Product, DirectionSampling::Product));
     assert_eq!(e.bookkeeping, Bookkeeping::ApartF64);
     let generation = lab.state().state().generation;
     wait(&mut lab, "a picture of all that", |app| {

@@ -2,8 +2,9 @@
 
 use glam::{Vec2, Vec3};
 use majorant_core::io::Library;
-use majorant_core::light::{Emitter, Light, LightSample};
+use majorant_core::light::{Emitter, Light, LightSample, LobeParts};
 use majorant_core::math::{Ray, Sampler};
+use majorant_core::phase::{Phase, PhaseDoc};
 use majorant_core::scene::{LightDoc, Scene, SceneDoc, build};
 use majorant_core::surface::Role;
 use majorant_tests::chi2::Family;
@@ -128,6 +129,79 @@ fn directions_towards_every_light_follow_their_density() {
         }
     }
     family.judge();
+}
+
+/// Directions of scattering: at a light, past it, away from it, and some that graze an axis.
+fn incoming(scene: &Scene, from: Vec3) -> Vec<Vec3> {
+    let mut sampler = Sampler::new(0, 0, 0);
+    let at = scene.lights[0].sample(from, sampler.next_2d()).expect("the point is lit").direction;
+    let beside = (at + 0.3 * at.any_orthonormal_vector()).normalize();
+    let across = at.any_orthonormal_vector();
+    vec![at, beside, across, -beside, -at, Vec3::X, Vec3::NEG_Z]
+}
+
+/// Two ways to integrate over what a light is seen in, and two over the part of the lobe around it.
+#[test]
+fn products_of_light_and_lobe_are_drawn_by_their_densities() {
+    let folder = tempfile::tempdir().unwrap();
+    write_skies(folder.path());
+    let mut family = Family::default();
+    let mut compare = |name: &str, difference: &mut dyn FnMut() -> f64| {
+        let differences: Vec<f64> = (0..20_000).map(|_| difference()).collect();
+        // Where neither way has any noise, rounding is all that differs.
+        if differences.iter().any(|d| d.abs() > 1e-4) {
+            family.mean(name, &differences, 0.0);
+        }
+    };
+    for (seed, (name, doc)) in (0..).zip(lights()) {
+        let scene = scene(&doc, folder.path());
+        let light = &scene.lights[0];
+        for (pixel, from) in (0..).zip(FROM) {
+            for (sample, omega_in) in (0..).zip(incoming(&scene, from)) {
+                let g = [0.0, 0.3, 0.85, 0.99, -0.7][sample as usize % 5];
+                let name = format!("{name} from {from} along {omega_in}, g = {g}");
+                let phase = Phase::new(&PhaseDoc::HenyeyGreenstein { g });
+                let parts = LobeParts::new(&scene.lights, from, omega_in, g);
+                let mut sampler = Sampler::new(seed, pixel, sample);
+                let lobe = |direction: Vec3| f64::from(phase.density(omega_in, direction));
+
+                let mut by_light = || {
+                    let s = parts.sample_light(0, light, from, sampler.next_2d());
+                    let product = s.map_or(0.0, |s| {
+                        let again = parts.light_density(0, light, from, s.direction, s.distance);
+                        assert!(
+                            (s.density / again - 1.0).abs() < 1e-3,
+                            "{name}: {} is not {again}",
+                            s.density
+                        );
+                        lobe(s.direction).sqrt() / f64::from(s.density)
+                    });
+                    let s = light.sample(from, sampler.next_2d()).expect("the point is lit");
+                    let inside = doc_is_around(&doc) || parts.density(s.direction) > 0.0;
+                    assert!(inside, "{name}: a part that does not hold the light at {}", s.direction);
+                    product - lobe(s.direction).sqrt() / f64::from(s.density)
+                };
+                compare(&format!("{name}: connections"), &mut by_light);
+
+                if doc_is_around(&doc) {
+                    continue;
+                }
+                let mut by_lobe = || {
+                    let direction = parts.sample(sampler.next_2d());
+                    let density = f64::from(parts.density(direction));
+                    let product = if density > 0.0 { lobe(direction) / density } else { 0.0 };
+                    let (direction, _) = phase.sample(omega_in, sampler.next_2d());
+                    product - f64::from(parts.density(direction) > 0.0)
+                };
+                compare(&format!("{name}: directions"), &mut by_lobe);
+            }
+        }
+    }
+    family.judge();
+}
+
+fn doc_is_around(doc: &LightDoc) -> bool {
+    matches!(doc, LightDoc::Environment { .. } | LightDoc::EnvironmentMap { .. })
 }
 
 #[test]

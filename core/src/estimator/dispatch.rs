@@ -4,7 +4,7 @@
 use super::Estimator;
 use crate::math::{Sampler, SamplerKind};
 use crate::medium::{AnyMedium, Medium, SharedMajorant};
-use crate::scene::{Absorption, DirectionSampling, EstimatorDoc, Heuristic, Mode, Scene};
+use crate::scene::{Absorption, EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transmittance::TransmittanceKind;
 use crate::transport::{PathSettings, Trace, Wanted, World};
@@ -50,9 +50,10 @@ impl Settings {
             bookkeeping: doc.bookkeeping,
             tracking: doc.tracking,
             lights: doc.lights,
+            light_sampling: doc.light_sampling,
             transmittance: TransmittanceKind::find(&doc.transmittance)
                 .unwrap_or(TransmittanceKind::ALONG_THE_PATH),
-            guided: doc.directions == DirectionSampling::TowardsLights,
+            directions: doc.directions,
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
             roulette_depth: match doc.absorption {
                 Absorption::Roulette => 0,

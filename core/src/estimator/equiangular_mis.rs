@@ -20,8 +20,8 @@ use crate::medium::LocalMedium;
 use crate::scene::{DistanceSampling, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    EquiangularWeights, Event, LightDensities, Passage, PathSettings, Reached, Trace, Vertex, WalkWeights,
-    Wanted, World,
+    EquiangularWeights, Event, LightDensities, Passage, PathSettings, Reached, Trace, WalkWeights, Wanted,
+    World,
 };
 
 pub(super) const ENTRY: Entry = Entry {
@@ -60,6 +60,7 @@ impl Estimator for EquiangularMis {
         let mut radiance = C::Radiance::BLACK;
         let mut path = EquiangularWeights::CAMERA;
         let mut reached = Reached::Otherwise;
+        let mut last = None;
         let mut vertices = 0;
         loop {
             let surface = world.nearest_surface(&ray, vertices == 0);
@@ -91,16 +92,17 @@ impl Estimator for EquiangularMis {
 
             let vertex = if let Some(point) = scattered_at {
                 reached = Reached::through(passage, point);
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 // The walk has met light. Before the first real vertex only it could have.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += if vertices == 0 {
-                        path.unidirectional(light.radiance, heuristics)
-                    } else {
-                        let densities =
-                            reached.light_densities(world, light.light, ray.origin, light.density);
-                        path.combined(light.radiance, densities, heuristics)
+                    radiance += match &last {
+                        None => path.unidirectional(light.radiance, heuristics),
+                        Some(vertex) => {
+                            let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
+                            let densities = reached.light_densities(world, light.index, ray.origin, nee);
+                            path.combined(light.radiance, densities, heuristics)
+                        }
                     };
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
@@ -126,6 +128,7 @@ impl Estimator for EquiangularMis {
                 return radiance;
             }
             ray = world.leave(&vertex, &mut path, trace);
+            last = Some(vertex);
         }
     }
 }
@@ -146,7 +149,7 @@ fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let collision = world.collision_at(&passage.ray, t, trace)?;
     link.scatter_by_angle(&collision, density * probability);
 
-    let vertex = Vertex::Medium { point: collision.point, omega_in: passage.ray.direction };
+    let vertex = world.scattering_vertex(collision.point, &passage.ray);
     let aim = world.aim_at(&vertex, light, trace.sampler.next_2d())?;
     let nee = aim.density * choice.probability(light, collision.point, by);
     let link = link.connect_by_angle(&aim.turn, LightDensities { nee, eq: aim.density });

@@ -16,7 +16,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, WalkWeights, World};
+use crate::transport::{Event, PathWeights, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "independent",
@@ -67,7 +67,7 @@ impl Estimator for Independent {
             };
 
             let vertex = if let Some(point) = scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
                     radiance += path.hero_only(light.radiance);

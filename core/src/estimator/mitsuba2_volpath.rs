@@ -22,7 +22,7 @@ use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{DensityDoc, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance, Sampled};
-use crate::transport::{Trace, Vertex, Wanted, World};
+use crate::transport::{Trace, Wanted, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "mitsuba2-volpath",
@@ -92,7 +92,7 @@ impl Estimator for Mitsuba2Volpath {
             phi *= flight.weight;
 
             let vertex = if let Some(point) = flight.scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 // Light that later segments meet was added when their direction was drawn.
                 if vertices == 0 {
@@ -126,7 +126,8 @@ impl Estimator for Mitsuba2Volpath {
             ray = Ray { origin: vertex.point(), direction: turn.direction };
             let end = world.nearest_surface(&ray, false);
             for light in world.arrivals(&ray, &end, false) {
-                let (p_e, p_p) = (light.density, turn.density);
+                let p_e = world.aim_density(&vertex, light.index, ray.direction, end.t());
+                let p_p = turn.density;
                 let weight = turn.value * p_p / (p_p * p_p + p_e * p_e);
                 radiance += light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
             }

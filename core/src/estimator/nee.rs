@@ -17,7 +17,7 @@ use crate::medium::LocalMedium;
 use crate::scene::SceneDoc;
 use crate::spectrum::{Components, Radiance};
 use crate::transmittance::TransmittanceKind;
-use crate::transport::{Event, PathWeights, Trace, Vertex, WalkWeights, Weights, World};
+use crate::transport::{Event, PathWeights, Trace, WalkWeights, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "nee",
@@ -66,7 +66,7 @@ impl Estimator for Nee {
             };
 
             let vertex = if let Some(point) = scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 if vertices == 0 {
                     // No real vertex yet: only the walk can find this light.

@@ -17,7 +17,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, Vertex, WalkWeights, World};
+use crate::transport::{Event, PathWeights, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-mis",
@@ -62,7 +62,7 @@ impl Estimator for SpectralMis {
             };
 
             let vertex = if let Some(point) = scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 // The path has reached light: this is the only technique that makes it.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {

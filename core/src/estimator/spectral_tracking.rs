@@ -19,7 +19,7 @@ use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{EventDensities, PathWeights, Trace, Vertex, WalkWeights, World};
+use crate::transport::{EventDensities, PathWeights, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-tracking",
@@ -81,7 +81,7 @@ impl Estimator for SpectralTracking {
             };
 
             let vertex = if let Some(point) = scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
                     radiance += path.as_drawn(light.radiance);

@@ -19,7 +19,7 @@ use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, WalkWeights, Wanted, Weights, World,
+    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, WalkWeights, Wanted, Weights, World,
 };
 use std::marker::PhantomData;
 
@@ -62,6 +62,7 @@ impl<B: Books> Estimator for UniNeeMis<B> {
         let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
         let mut path = B::Weights::<N>::CAMERA;
+        let mut last = None;
         let mut vertices = 0;
         loop {
             // Fly until something real happens; the weights follow every null collision.
@@ -83,14 +84,16 @@ impl<B: Books> Estimator for UniNeeMis<B> {
             };
 
             let vertex = if let Some(point) = scattered_at {
-                Vertex::Medium { point, omega_in: ray.direction }
+                world.scattering_vertex(point, &ray)
             } else {
                 // The walk has met light. Before the first real vertex only it could have.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += if vertices == 0 {
-                        path.unidirectional(light.radiance, heuristics)
-                    } else {
-                        path.combined(light.radiance, light.density, heuristics)
+                    radiance += match &last {
+                        None => path.unidirectional(light.radiance, heuristics),
+                        Some(vertex) => {
+                            let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
+                            path.combined(light.radiance, nee, heuristics)
+                        }
                     };
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
@@ -111,6 +114,7 @@ impl<B: Books> Estimator for UniNeeMis<B> {
                 return radiance;
             }
             ray = world.leave(&vertex, &mut path, trace);
+            last = Some(vertex);
         }
     }
 }

@@ -7,7 +7,9 @@ mod choice;
 mod environment;
 mod environment_map;
 mod lobes;
+mod product;
 mod rectangle;
+mod sector;
 mod sphere;
 mod sun;
 
@@ -15,10 +17,12 @@ pub use choice::{LightChoice, LightSelection};
 pub use environment::Environment;
 pub use environment_map::{EnvironmentMap, Panorama};
 pub use lobes::LightLobes;
+pub use product::LobeParts;
 pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
 pub use sun::Sun;
 
+use crate::math::Ray;
 use crate::spectrum::Components;
 use glam::{Vec2, Vec3};
 
@@ -90,6 +94,25 @@ impl Light {
             LightKind::Rectangle(light) => Some(light.shape.center),
             LightKind::Sphere(light) => Some(light.shape.center),
             LightKind::Sun(_) | LightKind::Environment(_) | LightKind::EnvironmentMap(_) => None,
+        }
+    }
+
+    /// Distance from a point to its emitting side; `None` where a direction misses it.
+    #[must_use]
+    pub fn reach(&self, from: Vec3, direction: Vec3) -> Option<f32> {
+        let ray = Ray { origin: from, direction };
+        match &self.kind {
+            LightKind::Rectangle(light) => {
+                let hit = light.shape.intersect(&ray, f32::INFINITY)?;
+                (direction.dot(hit.normal) < 0.0).then_some(hit.t)
+            }
+            LightKind::Sphere(light) => {
+                let hit = light.shape.intersect(&ray, f32::INFINITY)?;
+                (direction.dot(hit.normal) < 0.0).then_some(hit.t)
+            }
+            LightKind::Sun(_) | LightKind::Environment(_) | LightKind::EnvironmentMap(_) => {
+                self.is_behind(direction).then_some(f32::INFINITY)
+            }
         }
     }
 

@@ -11,6 +11,7 @@ use std::f32::consts::{PI, TAU};
 #[derive(Clone, Debug)]
 pub struct Sun {
     toward: Vec3,
+    half_angle: f32,
     one_minus_cos_max: f32,
     radiance: Spectrum,
 }
@@ -24,6 +25,7 @@ impl Sun {
         let sin = half_angle.sin();
         Self {
             toward: toward.normalize(),
+            half_angle,
             one_minus_cos_max: 2.0 * sin_half * sin_half,
             radiance: irradiance.scaled(1.0 / (PI * sin * sin)),
         }
@@ -33,6 +35,12 @@ impl Sun {
     #[must_use]
     pub fn toward(&self) -> Vec3 {
         self.toward
+    }
+
+    /// Half of its apparent diameter, in radians.
+    #[must_use]
+    pub fn half_angle(&self) -> f32 {
+        self.half_angle
     }
 
     /// A measure of its radiance, integrated over its disc.

@@ -25,10 +25,22 @@ impl Frame {
         }
     }
 
+    /// The unit vector that the frame is about.
+    #[must_use]
+    pub fn axis(&self) -> Vec3 {
+        self.z
+    }
+
     /// A vector given along the frame's axes, in the space of its `z`.
     #[must_use]
     pub fn to_world(&self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    /// A vector in the space of the frame's `z`, along its axes.
+    #[must_use]
+    pub fn to_local(&self, v: Vec3) -> Vec3 {
+        Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
     /// The unit vector at an angle from `z`, at an azimuth in turns.
@@ -54,6 +66,8 @@ mod tests {
                 assert!((a.dot(b) - dot).abs() < 1e-6);
             }
             assert!((f.x.cross(f.y) - z).length() < 1e-6);
+            let v = Vec3::new(1.0, -2.0, 0.5);
+            assert!((f.to_world(f.to_local(v)) - v).length() < 1e-6);
         }
     }
 }

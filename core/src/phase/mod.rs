@@ -39,7 +39,10 @@ trait Lobe {
 
 /// A phase function, ready to be evaluated and sampled.
 #[derive(Clone, Debug)]
-pub struct Phase(Kind);
+pub struct Phase {
+    kind: Kind,
+    mean_cosine: f32,
+}
 
 #[derive(Clone, Debug)]
 enum Kind {
@@ -54,7 +57,7 @@ enum Kind {
 
 macro_rules! each {
     ($self:ident, $lobe:ident => $body:expr) => {
-        match &$self.0 {
+        match &$self.kind {
             Kind::Isotropic($lobe) => $body,
             Kind::HenyeyGreenstein($lobe) => $body,
             Kind::TwoLobe($lobe) => $body,
@@ -71,7 +74,7 @@ impl Phase {
     /// file, has been read into it. A table that makes no sense is isotropic.
     #[must_use]
     pub fn new(doc: &PhaseDoc) -> Self {
-        Self(match doc {
+        let kind = match doc {
             PhaseDoc::Isotropic {} => Kind::Isotropic(Isotropic),
             PhaseDoc::HenyeyGreenstein { g } => Kind::HenyeyGreenstein(HenyeyGreenstein { g: *g }),
             PhaseDoc::TwoLobe { g_forward, g_backward, forward } => Kind::TwoLobe(TwoLobe {
@@ -85,13 +88,16 @@ impl Phase {
             PhaseDoc::Tabulated { angle, points, .. } => {
                 Table::new(*angle, points).map_or(Kind::Isotropic(Isotropic), Kind::Table)
             }
-        })
+        };
+        let mut phase = Self { kind, mean_cosine: 0.0 };
+        phase.mean_cosine = each!(phase, lobe => lobe.mean_cosine());
+        phase
     }
 
     /// ∫ p cos θ dω.
     #[must_use]
     pub fn mean_cosine(&self) -> f32 {
-        each!(self, lobe => lobe.mean_cosine())
+        self.mean_cosine
     }
 
     /// Value by the cosine of the scattering angle, per steradian: to draw the lobe with.

@@ -4,12 +4,13 @@
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
 use super::{Collision, Trace, Turn, Vertex, WalkWeights, Weights, World};
-use crate::light::Emitter;
+use crate::light::{Emitter, LobeParts};
 use crate::math::{BoxRay, Ray};
 use crate::medium::LocalMedium;
+use crate::scene::LightSampling;
 use crate::spectrum::{Components, Sampled};
 use crate::transmittance::InMedium;
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
@@ -110,7 +111,10 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     #[inline]
     pub fn aim_at(&self, vertex: &Vertex, index: usize, u: Vec2) -> Option<Aim<C::Radiance>> {
         let light = self.scene.lights.get(index)?;
-        let sample = light.sample(vertex.point(), u)?;
+        let sample = match self.product(vertex) {
+            Some(parts) => parts.sample_light(index, light, vertex.point(), u)?,
+            None => light.sample(vertex.point(), u)?,
+        };
         let turn = self.turns().towards(vertex, sample.direction);
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
         // Occluders are looked for short of the light itself; the medium reaches all the way.
@@ -125,6 +129,27 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             radiance: light.radiance(sample.direction, &self.components),
             light: index,
         })
+    }
+
+    /// The density with which [`Self::aim`] draws a direction at a vertex that reaches a light after `distance`; per
+    /// steradian, the choice of the light included.
+    #[must_use]
+    pub fn aim_density(&self, vertex: &Vertex, index: usize, direction: Vec3, distance: f32) -> f32 {
+        let (from, scene) = (vertex.point(), self.scene);
+        let density = scene.lights.get(index).map_or(0.0, |light| match self.product(vertex) {
+            Some(parts) => parts.light_density(index, light, from, direction, distance),
+            None => light.density(from, direction, distance),
+        });
+        density * scene.light_choice.probability(index, from, self.settings.lights)
+    }
+
+    /// What is scattered towards the lights at a vertex, if connections are drawn by it.
+    #[inline]
+    fn product<'v>(&self, vertex: &'v Vertex) -> Option<&'v LobeParts> {
+        match (self.settings.light_sampling, vertex) {
+            (LightSampling::Product, Vertex::Medium { parts, .. }) => parts.as_ref(),
+            _ => None,
+        }
     }
 
     /// Transmittance along a ray, estimated as the settings say.

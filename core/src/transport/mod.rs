@@ -26,7 +26,7 @@ pub use divided::Flight;
 pub use equiangular::{Passage, Reached};
 pub use event::{Collision, Event, EventRule};
 pub use event_densities::EventDensities;
-pub use turn::{Turn, Turns};
+pub use turn::{Guide, Turn, Turns};
 pub use vertex::Vertex;
 pub use walk::Walk;
 pub use wanted::Wanted;

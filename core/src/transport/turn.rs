@@ -15,8 +15,17 @@ const GUIDED: f32 = 0.3;
 pub struct Turns<'a> {
     /// The medium's phase function.
     pub phase: &'a Phase,
-    /// Lobes towards the lights, where they guide.
-    pub lobes: Option<&'a LightLobes>,
+    /// What guides paths to the lights, if anything does.
+    pub guide: Option<Guide<'a>>,
+}
+
+/// Directions that are mixed with the phase function's.
+#[derive(Clone, Copy, Debug)]
+pub enum Guide<'a> {
+    /// Broad lobes towards the lights.
+    Lobes(&'a LightLobes),
+    /// The parts of the phase function in which the vertex sees the lights.
+    Product,
 }
 
 /// A direction out of a vertex.
@@ -36,8 +45,8 @@ impl Turns<'_> {
     #[inline]
     pub fn towards(&self, vertex: &Vertex, direction: Vec3) -> Turn {
         match vertex {
-            Vertex::Medium { point, omega_in } => {
-                self.mixed(*point, direction, self.phase.density(*omega_in, direction))
+            Vertex::Medium { omega_in, .. } => {
+                self.mixed(vertex, direction, self.phase.density(*omega_in, direction))
             }
             Vertex::Surface { normal, .. } => {
                 let value = normal.dot(direction).max(0.0) * FRAC_1_PI;
@@ -51,17 +60,19 @@ impl Turns<'_> {
     #[inline]
     pub fn draw(&self, vertex: &Vertex, mut u: Vec2) -> Turn {
         match vertex {
-            Vertex::Medium { point, omega_in } => {
-                if let Some(lobes) = self.lobes {
+            Vertex::Medium { omega_in, .. } => {
+                if self.guide.is_some() {
                     if u.x < GUIDED {
                         u.x /= GUIDED;
-                        let direction = lobes.sample(*point, u);
-                        return self.mixed(*point, direction, self.phase.density(*omega_in, direction));
+                        if let Some(direction) = self.guided(vertex, u) {
+                            return self.towards(vertex, direction);
+                        }
+                    } else {
+                        u.x = (u.x - GUIDED) / (1.0 - GUIDED);
                     }
-                    u.x = (u.x - GUIDED) / (1.0 - GUIDED);
                 }
                 let (direction, value) = self.phase.sample(*omega_in, u);
-                self.mixed(*point, direction, value)
+                self.mixed(vertex, direction, value)
             }
             Vertex::Surface { normal, .. } => {
                 let local = cosine_direction(u);
@@ -71,13 +82,27 @@ impl Turns<'_> {
         }
     }
 
-    /// The density of a mixture, of which the phase function has one share and the lobes the other.
+    /// A direction from the guide, if it has any at this vertex.
     #[inline]
-    fn mixed(&self, point: Vec3, direction: Vec3, value: f32) -> Turn {
-        let density = match self.lobes {
-            None => value,
-            Some(lobes) => value + GUIDED * (lobes.density(point, direction) - value),
+    fn guided(&self, vertex: &Vertex, u: Vec2) -> Option<Vec3> {
+        match (self.guide?, vertex) {
+            (Guide::Lobes(lobes), _) => Some(lobes.sample(vertex.point(), u)),
+            (Guide::Product, Vertex::Medium { parts, .. }) => parts.as_ref().map(|parts| parts.sample(u)),
+            (Guide::Product, Vertex::Surface { .. }) => None,
+        }
+    }
+
+    /// The density of a mixture, of which the phase function has one share and the guide the other.
+    #[inline]
+    fn mixed(&self, vertex: &Vertex, direction: Vec3, value: f32) -> Turn {
+        let guided = match (self.guide, vertex) {
+            (Some(Guide::Lobes(lobes)), _) => Some(lobes.density(vertex.point(), direction)),
+            (Some(Guide::Product), Vertex::Medium { parts: Some(parts), .. }) => {
+                Some(parts.density(direction))
+            }
+            _ => None,
         };
+        let density = guided.map_or(value, |guided| value + GUIDED * (guided - value));
         Turn { direction, value, density }
     }
 }

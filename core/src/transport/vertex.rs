@@ -1,5 +1,6 @@
 //! Vertices at which a path changes direction.
 
+use crate::light::LobeParts;
 use glam::Vec3;
 
 /// A real scattering vertex.
@@ -11,6 +12,8 @@ pub enum Vertex {
         point: Vec3,
         /// Direction of propagation that arrived.
         omega_in: Vec3,
+        /// What is scattered towards the lights, if directions are drawn by it.
+        parts: Option<LobeParts>,
     },
     /// On a diffuse surface.
     Surface {

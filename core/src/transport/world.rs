@@ -1,15 +1,17 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Collision, EventRule, Turns, Vertex, Walk, WalkWeights, Wanted};
-use crate::light::Emitter;
+use super::{Collision, EventRule, Guide, Turns, Vertex, Walk, WalkWeights, Wanted};
+use crate::light::{Emitter, LobeParts};
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
 use crate::scene::{
-    Absorption, Bookkeeping, DistanceSampling, Heuristics, LightSelection, NearestSurface, Scene, Tracking,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristics, LightSampling, LightSelection,
+    NearestSurface, Scene, Tracking,
 };
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
+use glam::Vec3;
 
 /// Choices that every path of a render shares.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +28,12 @@ pub struct PathSettings {
     pub tracking: Tracking,
     /// Which light a connection goes to.
     pub lights: LightSelection,
+    /// How a connection draws a direction towards its light.
+    pub light_sampling: LightSampling,
     /// How the transmittance of a connection is estimated, where no MIS needs its density.
     pub transmittance: TransmittanceKind,
-    /// Whether directions are drawn towards the lights as well as by the phase function.
-    pub guided: bool,
+    /// What directions in the medium are drawn from.
+    pub directions: DirectionSampling,
     /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.
     pub max_depth: u32,
     /// Russian roulette from this number of real vertices on; `u32::MAX` for never.
@@ -75,11 +79,8 @@ impl<'a> Trace<'a> {
 pub struct Arrival<R> {
     /// Emitted radiance.
     pub radiance: R,
-    /// Density with which light sampling, including the choice of the light, would have drawn the
-    /// ray's direction at its origin; per steradian.
-    pub density: f32,
     /// Which light it is.
-    pub light: usize,
+    pub index: usize,
 }
 
 /// A scene, its medium and its spectra at the components of one path.
@@ -134,7 +135,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         end: &NearestSurface,
         from_camera: bool,
     ) -> impl Iterator<Item = Arrival<C::Radiance>> {
-        let (ray, t, role, normal) = (*ray, end.t(), end.role(), end.normal());
+        let (ray, role, normal) = (*ray, end.role(), end.normal());
         self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {
             let met = match role {
                 // Lights with a surface emit on the side of its normal only.
@@ -142,12 +143,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
                 Some(Role::Diffuse(_)) => false,
                 None => light.is_behind(ray.direction),
             };
-            (met && (light.visible || !from_camera)).then(|| Arrival {
-                radiance: light.radiance(ray.direction, &self.components),
-                density: light.density(ray.origin, ray.direction, t)
-                    * self.scene.light_choice.probability(index, ray.origin, self.settings.lights),
-                light: index,
-            })
+            (met && (light.visible || !from_camera))
+                .then(|| Arrival { radiance: light.radiance(ray.direction, &self.components), index })
         })
     }
 
@@ -163,12 +160,28 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
     }
 
+    /// A scattering vertex in the medium, on this ray.
+    #[must_use]
+    #[inline]
+    pub fn scattering_vertex(&self, point: Vec3, ray: &Ray) -> Vertex {
+        let by_product = self.settings.directions == DirectionSampling::Product
+            || self.settings.light_sampling == LightSampling::Product;
+        let lights = &self.scene.lights;
+        let parts = (by_product && !lights.is_empty())
+            .then(|| LobeParts::new(lights, point, ray.direction, self.scene.phase.mean_cosine()));
+        Vertex::Medium { point, omega_in: ray.direction, parts }
+    }
+
     /// What directions are drawn from.
     #[must_use]
     #[inline]
     pub fn turns(&self) -> Turns<'_> {
-        let lobes = if self.settings.guided { self.scene.lobes.as_ref() } else { None };
-        Turns { phase: &self.scene.phase, lobes }
+        let guide = match self.settings.directions {
+            DirectionSampling::Phase => None,
+            DirectionSampling::TowardsLights => self.scene.lobes.as_ref().map(Guide::Lobes),
+            DirectionSampling::Product => Some(Guide::Product),
+        };
+        Turns { phase: &self.scene.phase, guide }
     }
 
     /// Draws the direction that a path leaves a vertex in.

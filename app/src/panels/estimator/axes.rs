@@ -6,7 +6,7 @@ use majorant_core::estimator::{self, Axis};
 use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
-    LightSelection, Mode, Tracking,
+    LightSampling, LightSelection, Mode, Tracking,
 };
 use majorant_core::spectrum::WavelengthSampling;
 use majorant_core::transmittance::TransmittanceKind;
@@ -110,6 +110,17 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         ];
         segmented(ui, "Lights", &mut doc.lights, &options);
     });
+    row(ui, "Aim", "Where on a light a connection goes", |ui, _| {
+        let options = [
+            (LightSampling::Emitter, "Light", "Anywhere, evenly: as in the papers"),
+            (
+                LightSampling::Product,
+                "Product",
+                "Where the phase function scatters to: wins beside large lights, for sharply forward scattering",
+            ),
+        ];
+        segmented(ui, "Aim", &mut doc.light_sampling, &options);
+    });
 }
 
 /// How connections estimate transmittance, from the registry.
@@ -191,6 +202,11 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 DirectionSampling::TowardsLights,
                 "Guided",
                 "Also from broad lobes towards the lights: wins for light from the side through forward scattering",
+            ),
+            (
+                DirectionSampling::Product,
+                "Product",
+                "Also from the part of the phase function that can meet the lights: wins beside lights in view",
             ),
         ];
         segmented(ui, "Directions", &mut doc.directions, &options);

@@ -13,7 +13,7 @@ use crate::light::Panorama;
 use crate::math::SamplerKind;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EmissionDoc, GridRef, Heuristic,
-    Heuristics, LightSelection, Mode, Tracking,
+    Heuristics, LightSampling, LightSelection, Mode, Tracking,
 };
 use crate::spectrum::WavelengthSampling;
 
@@ -198,6 +198,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
                 Heuristics { components: Heuristic::Power, techniques: Heuristic::Power };
             d.estimator.tracking = Tracking::Maximum;
             d.estimator.lights = LightSelection::Power;
+            d.estimator.light_sampling = LightSampling::Product;
+            d.estimator.directions = DirectionSampling::Product;
             d.estimator.sampler = SamplerKind::Sobol;
         }),
         plume.varied("agreement/plume-maximum", |d| {

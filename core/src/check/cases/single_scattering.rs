@@ -13,7 +13,7 @@ use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::{AXIS, CONNECTING, CONNECTING_AND_ONE};
 use crate::io::Library;
-use crate::scene::{Angle, PhaseDoc};
+use crate::scene::{Angle, DirectionSampling, LightSampling, PhaseDoc};
 use glam::DVec3;
 
 pub(super) const FAMILY: Family = Family {
@@ -149,6 +149,13 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         let answer = Answer::uniform(single, Layout::WHOLE);
         let case = case(&format!("sun-{name}"), medium, &sun_toml(toward, diameter), "rgb", answer)?;
         let case = case.varied(case.name.clone(), |d| d.medium.phase = doc);
+        if name.starts_with("hg") {
+            let by_product = case.varied(format!("{}-product", case.name), |d| {
+                d.estimator.light_sampling = LightSampling::Product;
+                d.estimator.directions = DirectionSampling::Product;
+            });
+            cases.push(by_product.among(&CONNECTING));
+        }
         // Droplets send little to the side: whoever does not connect needs a hundred million paths to tell.
         cases.push(match name {
             "mie" => case.among(&CONNECTING),

@@ -31,6 +31,8 @@ pub struct EstimatorDoc {
     pub tracking: Tracking,
     /// Which light a connection goes to.
     pub lights: LightSelection,
+    /// How a connection draws a direction towards its light.
+    pub light_sampling: LightSampling,
     /// How the transmittance of a connection is estimated, where no MIS needs its density: an id of
     /// [`crate::transmittance::TransmittanceKind`].
     pub transmittance: String,
@@ -59,6 +61,7 @@ impl Default for EstimatorDoc {
             bookkeeping: Bookkeeping::Rescaled,
             tracking: Tracking::History,
             lights: LightSelection::Uniform,
+            light_sampling: LightSampling::Emitter,
             transmittance: "ratio-hero".into(),
             max_depth: None,
             roulette_depth: Some(16),
@@ -134,6 +137,21 @@ pub enum DirectionSampling {
     /// A mixture of the phase function and of broad lobes towards the lights: wins where light comes from the
     /// side and scattering is sharply forward.
     TowardsLights,
+    /// A mixture of the phase function and of its part that can meet the lights: wins where lights are large or in view,
+    /// and scattering is sharply forward.
+    Product,
+}
+
+/// How a connection draws a direction towards its light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightSampling {
+    /// Evenly over the light, as in the papers.
+    #[default]
+    Emitter,
+    /// In proportion to the product with the phase function, nearly: wins beside large lights seen through sharply
+    /// forward scattering.
+    Product,
 }
 
 /// How multiple importance sampling divides a path among all that could have made it (Veach 1997, section 9.2), for

@@ -22,8 +22,8 @@ pub use compare::{
     Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
 };
 pub use estimator::{
-    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics, Mode,
-    Tracking,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
+    LightSampling, Mode, Tracking,
 };
 pub use light::LightDoc;
 pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc};
