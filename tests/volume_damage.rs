@@ -9,7 +9,9 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use majorant_core::io::volume::{Limits, info, info_bytes, read_volume, read_volume_bytes};
+use majorant_core::io::volume::{
+    Limits, info, info_bytes, read_sparse_volume_bytes, read_volume, read_volume_bytes,
+};
 use majorant_tests::volumes::{self, mutate};
 
 const TRUNCATIONS: usize = 200;
@@ -18,7 +20,12 @@ const BYTE_FLIPS: usize = 500;
 const MAX_TIME: Duration = Duration::from_secs(30);
 
 /// Small enough that a breach shows in the memory of the process.
-const LIMITS: Limits = Limits { max_file_bytes: 1 << 22, max_tree_bytes: 1 << 26, max_dense_values: 1 << 24 };
+const LIMITS: Limits = Limits {
+    max_file_bytes: 1 << 22,
+    max_tree_bytes: 1 << 26,
+    max_dense_values: 1 << 24,
+    max_blocks: 1 << 22,
+};
 
 /// What became of the damaged copies of one file.
 #[derive(Default, Debug)]
@@ -34,6 +41,8 @@ fn attempt(bytes: &[u8], label: &str, tally: &mut Tally) {
     let read = read_volume_bytes(bytes, label, None, &LIMITS);
     let mut messages = Vec::from_iter(read.as_ref().err().map(ToString::to_string));
     if label.ends_with(".vdb") {
+        let sparse = read_sparse_volume_bytes(bytes, label, None, &LIMITS, &|_| ());
+        messages.extend(sparse.err().map(|error| error.to_string()));
         match info_bytes(bytes, label, &LIMITS) {
             Ok(grids) => messages.extend(grids.into_iter().filter_map(|grid| grid.error)),
             Err(error) => messages.push(error.to_string()),

@@ -1,7 +1,7 @@
 //! What becomes of a scene when its volume is replaced by a person's own.
 
 use glam::Vec3;
-use majorant_core::io::volume::{Limits, VoxelGrid, read_volume, validate_density};
+use majorant_core::io::volume::{Limits, Volume, read_sparse_volume};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
 use std::path::Path;
 
@@ -24,18 +24,18 @@ pub struct Look {
 /// # Errors
 /// What is wrong with the file, and the cure.
 pub fn look_into(path: &Path) -> Result<Look, String> {
-    let grid = read_volume(path, None, &Limits::default()).map_err(|e| e.to_string())?;
-    validate_density(&grid, path).map_err(|e| e.to_string())?;
-    Ok(measure(&grid))
+    let volume = read_sparse_volume(path, None, &Limits::default(), &|_| ()).map_err(|e| e.to_string())?;
+    volume.validate_density(path).map_err(|e| e.to_string())?;
+    Ok(measure(&volume))
 }
 
-fn measure(grid: &VoxelGrid) -> Look {
-    let size = grid.size.map(|n| n as f32);
+fn measure(volume: &Volume) -> Look {
+    let size = volume.size().map(|n| n as f32);
     let longest = size.into_iter().fold(1.0, f32::max);
     Look {
-        channels: grid.channels,
+        channels: volume.channels(),
         edges: size.map(|n| n / longest),
-        thickest: grid.thickest_line() / longest,
+        thickest: volume.thickest_line() / longest,
     }
 }
 

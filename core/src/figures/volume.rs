@@ -1,7 +1,7 @@
 //! A person's own volume in the place of ours.
 
 use super::FiguresError;
-use crate::io::volume::{Limits, VolumeError, VoxelGrid, read_volume, read_volume_bytes, validate_density};
+use crate::io::volume::{Limits, Volume, VolumeError, read_sparse_volume, read_sparse_volume_bytes};
 use crate::io::{Library, embedded};
 use crate::scene::{DensityDoc, GridRef, Resources, SceneDoc, bounds, rotation};
 use glam::Vec3;
@@ -16,11 +16,11 @@ use std::path::Path;
 pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresError> {
     let Some(ours) = embedded(doc)? else { return Ok(()) };
     let name = file.display().to_string();
-    let theirs = read_volume(file, None, &Limits::default())?;
-    if theirs.channels != 1 {
-        return Err(FiguresError::Colour { file: name, channels: theirs.channels });
+    let theirs = read_sparse_volume(file, None, &Limits::default(), &|_| ())?;
+    if theirs.channels() != 1 {
+        return Err(FiguresError::Colour { file: name, channels: theirs.channels() });
     }
-    validate_density(&theirs, file)?;
+    theirs.validate_density(file)?;
     let thickness = thickness(&theirs);
     if thickness <= 0.0 {
         return Err(FiguresError::Empty { file: name });
@@ -39,10 +39,10 @@ pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresErro
     Ok(())
 }
 
-fn embedded(doc: &SceneDoc) -> Result<Option<VoxelGrid>, VolumeError> {
+fn embedded(doc: &SceneDoc) -> Result<Option<Volume>, VolumeError> {
     let Some(grid) = doc.medium.density.grid() else { return Ok(None) };
     let Some(bytes) = embedded::volume(&grid.file) else { return Ok(None) };
-    read_volume_bytes(bytes, &grid.file, grid.grid.as_deref(), &Limits::default()).map(Some)
+    read_sparse_volume_bytes(bytes, &grid.file, grid.grid.as_deref(), &Limits::default(), &|_| ()).map(Some)
 }
 
 /// The box that the embedded grid fills before it is placed, as the scene has it.
@@ -53,9 +53,9 @@ fn own_box(doc: &SceneDoc) -> Result<(Vec3, Vec3), FiguresError> {
 }
 
 /// The thickest grid line's sum of densities, in units of the longest edge.
-fn thickness(grid: &VoxelGrid) -> f32 {
-    let longest = grid.size.into_iter().max().unwrap_or(1).max(1);
-    grid.thickest_line() / longest as f32
+fn thickness(volume: &Volume) -> f32 {
+    let longest = volume.size().into_iter().max().unwrap_or(1).max(1);
+    volume.thickest_line() / longest as f32
 }
 
 #[cfg(test)]

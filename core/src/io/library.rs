@@ -1,14 +1,14 @@
 //! Finds and keeps the files that scenes name.
 
-use super::volume::{self, Limits, SampleConvention, VoxelGrid};
+use super::placing::place;
+use super::volume::{self, Limits, Volume};
 use super::{Progress, embedded, fingerprint, phase_table, picture};
 use crate::light::Panorama;
-use crate::medium::{BRICK_EDGE, Grid, Lattice, Majorants, Packing, Precision};
+use crate::medium::Precision;
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
-use glam::{Affine3A, DAffine3, DVec3};
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -112,7 +112,7 @@ impl Library {
         placed
     }
 
-    fn read(&self, key: &Key, file: &str) -> Result<VoxelGrid, ResourceError> {
+    fn read(&self, key: &Key, file: &str) -> Result<Volume, ResourceError> {
         if file.is_empty() {
             return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
@@ -120,7 +120,7 @@ impl Library {
         // Bricks and what else follows take about as long as a fifth of the rest.
         let watch = |share: f64| self.progress.at(READING * share);
         let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
-            Some(bytes) => volume::read_volume_bytes_watched(bytes, file, grid, &self.limits, &watch),
+            Some(bytes) => volume::read_sparse_volume_bytes(bytes, file, grid, &self.limits, &watch),
             None if file.starts_with(embedded::PREFIX) => {
                 let names: Vec<_> = embedded::VOLUMES.iter().map(|v| v.name).collect();
                 return Err(ResourceError(format!(
@@ -128,11 +128,11 @@ impl Library {
                     names.join(", ")
                 )));
             }
-            None => volume::read_volume_watched(&key.path, grid, &self.limits, &watch),
+            None => volume::read_sparse_volume(&key.path, grid, &self.limits, &watch),
         };
-        let voxels = read.map_err(|e| ResourceError(e.to_string()))?;
-        volume::validate_density(&voxels, &key.path).map_err(|e| ResourceError(e.to_string()))?;
-        Ok(voxels)
+        let volume = read.map_err(|e| ResourceError(e.to_string()))?;
+        volume.validate_density(&key.path).map_err(|e| ResourceError(e.to_string()))?;
+        Ok(volume)
     }
 }
 
@@ -145,91 +145,6 @@ fn keep<K: Eq + Hash, V>(map: &mut HashMap<K, V>, key: K, value: V) {
         map.clear();
     }
     map.insert(key, value);
-}
-
-/// Turns voxels into a grid over the unit cube, and places that cube.
-fn place<const C: usize>(
-    voxels: VoxelGrid,
-    path: &Path,
-    precision: Precision,
-) -> Result<PlacedGrid<C>, ResourceError> {
-    if voxels.channels != C {
-        return Err(ResourceError(format!(
-            "{}: the grid has {} values per voxel where {C} are needed",
-            path.display(),
-            voxels.channels
-        )));
-    }
-    let mut notices = Vec::new();
-    if voxels.repaired > 0 {
-        notices.push(format!(
-            "{}: {} voxels that were NaN or infinite were set to 0.",
-            path.display(),
-            voxels.repaired
-        ));
-    }
-    let samples: Vec<[f32; C]> =
-        voxels.values.chunks_exact(C).map(|c| std::array::from_fn(|i| c[i])).collect();
-    let min = DVec3::from(voxels.min_index.map(f64::from));
-    let size = DVec3::from(voxels.size.map(|n| n as f64));
-    let (grid, index_from_unit) = match voxels.convention {
-        SampleConvention::CellCentred => (
-            Grid::packed(
-                voxels.size,
-                &samples,
-                Lattice::CellCentred,
-                Packing { precision, ..Packing::default() },
-            ),
-            DAffine3::from_translation(min) * DAffine3::from_scale(size),
-        ),
-        SampleConvention::VertexCentred => {
-            // One layer of background all around, so that the field fades out as it does in OpenVDB.
-            // Bricks fall on the blocks of the file's own tree.
-            let phase = voxels.min_index.map(|i| (i64::from(i) - 1).rem_euclid(BRICK_EDGE as i64) as usize);
-            let (padded_size, padded) = pad(voxels.size, &samples, [voxels.background; C]);
-            (
-                Grid::packed(padded_size, &padded, Lattice::VertexCentred, Packing { precision, phase }),
-                DAffine3::from_translation(min - 1.0) * DAffine3::from_scale(size + 1.0),
-            )
-        }
-    };
-    let grid = grid.ok_or_else(|| ResourceError(format!("{}: the grid has no voxels", path.display())))?;
-    if grid.storage_error() > 0.0 {
-        notices.push(format!(
-            "{}: kept at less than full precision, which changes values by up to {:.1e}.",
-            path.display(),
-            grid.storage_error()
-        ));
-    }
-    if grid.max().iter().all(|m| *m <= 0.0) {
-        notices.push(format!("{}: the grid is empty, its density is 0.", path.display()));
-    }
-    let placed = voxels.world_from_index * index_from_unit;
-    let object_from_unit =
-        Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
-    // The readers give `.npy` and `.raw` a box of their own choice.
-    let says_where =
-        path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
-    let grid = Arc::new(grid);
-    let majorants = Arc::new(Majorants::new(Arc::clone(&grid)));
-    Ok(PlacedGrid { grid, majorants, object_from_unit, says_where, notices })
-}
-
-fn pad<const C: usize>(
-    [nx, ny, nz]: [usize; 3],
-    samples: &[[f32; C]],
-    background: [f32; C],
-) -> ([usize; 3], Vec<[f32; C]>) {
-    let size = [nx + 2, ny + 2, nz + 2];
-    let mut padded = vec![background; size[0] * size[1] * size[2]];
-    for z in 0..nz {
-        for y in 0..ny {
-            let from = nx * (y + ny * z);
-            let to = 1 + size[0] * (y + 1 + size[1] * (z + 1));
-            padded[to..to + nx].copy_from_slice(&samples[from..from + nx]);
-        }
-    }
-    (size, padded)
 }
 
 impl Resources for Library {
@@ -337,7 +252,7 @@ mod tests {
         let told = std::cell::RefCell::new(Vec::new());
         let watch = |share| told.borrow_mut().push(share);
         let bytes = embedded::volume("embedded:plume.vdb").expect("our plume");
-        volume::read_volume_bytes_watched(bytes, "plume.vdb", None, &Limits::default(), &watch).expect("it");
+        volume::read_sparse_volume_bytes(bytes, "plume.vdb", None, &Limits::default(), &watch).expect("it");
         let told = told.into_inner();
         assert!(told.len() > 8 && told.windows(2).all(|pair| pair[0] <= pair[1]), "{told:?}");
         assert_eq!(told.last(), Some(&1.0));

@@ -6,6 +6,7 @@ pub mod fingerprint;
 mod library;
 pub mod phase_table;
 pub mod picture;
+mod placing;
 mod progress;
 pub mod scene_file;
 pub mod volume;

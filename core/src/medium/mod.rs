@@ -26,7 +26,7 @@ pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
 pub use emission::Emission;
-pub use grid::{BRICK_EDGE, Grid, Interpolation, Lattice, Packing, Precision};
+pub use grid::{BRICK_EDGE, Bricks, Grid, Interpolation, Lattice, Packing, Precision};
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use majorant_core::io::volume::{Background, GridInfo, Limits, VolumeError, VoxelGrid, info, read_vdb};
+use majorant_core::io::volume::{
+    BLOCK, Background, BlockGrid, GridInfo, Limits, Volume, VolumeError, VoxelGrid, info, read_sparse_volume,
+    read_vdb, validate_density,
+};
 use serde_json::Value;
 
 /// What became of one grid.
@@ -197,6 +200,7 @@ fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<St
             wrong.push(format!("{what} {ours:?} instead of {theirs:?}"));
         }
     }
+    compare_blocks(path, &grid, wrong);
     let mut result = format!("{:?}, {} negative", grid.size, grid.negative);
     if grid.repaired > 0 {
         result += &format!(", {} repaired", grid.repaired);
@@ -204,6 +208,69 @@ fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<St
         compare_sums(&grid, info, truth, wrong);
     }
     result
+}
+
+/// Reads the grid into blocks, and compares them with the array voxel by voxel.
+fn compare_blocks(path: &Path, array: &VoxelGrid, wrong: &mut Vec<String>) {
+    let blocks = match read_sparse_volume(path, Some(&array.name), &Limits::default(), &|_| ()) {
+        Ok(Volume::Blocks(blocks)) => blocks,
+        Ok(Volume::Array(again)) => {
+            if again.values != array.values || again.background == 0.0 && again.channels == 1 {
+                wrong.push("another array where blocks were asked for".to_owned());
+            }
+            return;
+        }
+        Err(error) => return wrong.push(format!("blocks: {error}")),
+    };
+    let filled = fill(&blocks);
+    if filled != array.values {
+        let differ = filled.iter().zip(&array.values).filter(|(a, b)| a != b).count();
+        wrong.push(format!("{differ} of {} values differ between blocks and array", filled.len()));
+    }
+    let negative = blocks.negative.map_or(0, |(_, _, count)| count as usize);
+    if (blocks.repaired as usize, negative) != (array.repaired, array.negative) {
+        wrong.push(format!("blocks: {} repaired, {negative} negative", blocks.repaired));
+    }
+    let of_blocks = Volume::Blocks(blocks.clone());
+    let reason = |checked: Result<(), VolumeError>| checked.err().map(|error| error.to_string());
+    let reasons = [reason(of_blocks.validate_density(path)), reason(validate_density(array, path))];
+    if reasons[0] != reasons[1] {
+        wrong.push(format!("blocks and array as a density: {reasons:?}"));
+    }
+    let thickest = (of_blocks.thickest_line(), array.thickest_line());
+    if (thickest.0 - thickest.1).abs() > 1e-4 * thickest.1.abs() {
+        wrong.push(format!("thickest lines of blocks and array: {thickest:?}"));
+    }
+}
+
+/// The array that blocks stand for.
+fn fill(grid: &BlockGrid) -> Vec<f32> {
+    let ([nx, ny, nz], channels) = (grid.size(), grid.channels);
+    let mut values = vec![0.0; nx * ny * nz * channels];
+    let mut set = |at: [i32; 3], voxel: &[f32]| {
+        let offset = [0, 1, 2].map(|axis| i64::from(at[axis]) - i64::from(grid.bbox[0][axis]));
+        let inside = offset.iter().zip([nx, ny, nz]).all(|(o, n)| (0..n as i64).contains(o));
+        if inside {
+            let [x, y, z] = offset.map(|o| o as usize);
+            let first = (x + nx * (y + ny * z)) * channels;
+            values[first..first + channels].copy_from_slice(voxel);
+        } else {
+            assert!(voxel.iter().all(|v| *v == 0.0), "{at:?} lies outside of the box, and is {voxel:?}");
+        }
+    };
+    for (origin, block) in grid.origins.iter().zip(grid.values.chunks_exact(BLOCK * channels)) {
+        for (i, voxel) in (0i32..).zip(block.chunks_exact(channels)) {
+            set([origin[0] + i % 8, origin[1] + i / 8 % 8, origin[2] + i / 64], voxel);
+        }
+    }
+    for tile in &grid.tiles {
+        let n = tile.edge;
+        for i in 0..n * n * n {
+            let at = [tile.origin[0] + i % n, tile.origin[1] + i / n % n, tile.origin[2] + i / (n * n)];
+            set(at, &tile.value[..channels]);
+        }
+    }
+    values
 }
 
 /// Compares voxels by the sum of their channels, as the truth does for vectors.

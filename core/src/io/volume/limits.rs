@@ -12,12 +12,20 @@ pub struct Limits {
     pub max_tree_bytes: u64,
     /// Values (voxels × channels) of the dense grid; each takes 4 bytes.
     pub max_dense_values: u64,
+    /// Blocks of 8³ voxels that the box of a sparse grid may have room for, empty ones included; each takes 4 bytes.
+    pub max_blocks: u64,
 }
 
 impl Default for Limits {
-    /// 1 GiB each for the file, the unpacked tree and the dense grid.
+    /// 1 GiB each for the file, the unpacked tree and the dense grid, a quarter for the places of blocks: a box of
+    /// 3200³ voxels.
     fn default() -> Self {
-        Self { max_file_bytes: 1 << 30, max_tree_bytes: 1 << 30, max_dense_values: 1 << 28 }
+        Self {
+            max_file_bytes: 1 << 30,
+            max_tree_bytes: 1 << 30,
+            max_dense_values: 1 << 28,
+            max_blocks: 1 << 26,
+        }
     }
 }
 
@@ -36,6 +44,22 @@ impl Limits {
                 "Crop or resample the volume to a coarser voxel size",
             )
         })
+    }
+
+    /// Checks the box of a sparse grid of that size.
+    pub(super) fn blocks(&self, size: [u64; 3]) -> Result<(), Fault> {
+        // A layer of background all around.
+        let needed = size.iter().map(|&n| u128::from((n + 2).div_ceil(8) + 1)).product::<u128>();
+        if needed <= u128::from(self.max_blocks) {
+            return Ok(());
+        }
+        let [x, y, z] = size;
+        Err(Fault::too_large(
+            &format!("a box of {x} × {y} × {z} voxels"),
+            format_args!("{needed} blocks of 8 × 8 × 8"),
+            format_args!("{} blocks", self.max_blocks),
+            "Crop or resample the volume to a coarser voxel size",
+        ))
     }
 }
 

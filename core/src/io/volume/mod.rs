@@ -1,4 +1,5 @@
-//! Volume files: OpenVDB, NumPy arrays, Mitsuba volumes and raw voxels, each into a dense [`VoxelGrid`].
+//! Volume files: OpenVDB, NumPy arrays, Mitsuba volumes and raw voxels, into a dense [`VoxelGrid`], or OpenVDB into
+//! the blocks that it holds ([`BlockGrid`]).
 //!
 //! A file is data from outside. Readers check every size before they use it, keep within
 //! [`Limits`], and refuse what they would not read exactly, with an error that names the file, the
@@ -7,6 +8,7 @@
 //!
 //! To add a format: a file with a `read_bytes`, and one line each in the two matches on `Format`.
 
+mod blocks;
 mod counted;
 mod cursor;
 mod error;
@@ -20,6 +22,7 @@ mod vdb;
 
 use std::path::Path;
 
+pub use blocks::{BLOCK, BLOCK_EDGE, BlockGrid, ConstantTile, Volume};
 pub use error::{Place, VolumeError};
 pub use grid::{SampleConvention, VoxelGrid, validate_density};
 pub use limits::Limits;
@@ -67,20 +70,21 @@ impl Format {
 /// # Errors
 /// The file is missing, of an unknown format, damaged, too large, or has no such grid.
 pub fn read_volume(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
-    read_volume_watched(path, grid, limits, &|_| ())
+    read_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
 }
 
-/// [`read_volume`], telling `watch` the share that is done, from 0 to 1, as it rises.
+/// Reads a volume file of any supported format without filling what is empty, where the format allows it, telling
+/// `watch` the share that is done, from 0 to 1, as it rises.
 ///
 /// # Errors
 /// As [`read_volume`].
-pub fn read_volume_watched(
+pub fn read_sparse_volume(
     path: &Path,
     grid: Option<&str>,
     limits: &Limits,
     watch: &dyn Fn(f64),
-) -> Result<VoxelGrid, VolumeError> {
-    read_volume_bytes_watched(&file::read(path, limits)?, &path.display().to_string(), grid, limits, watch)
+) -> Result<Volume, VolumeError> {
+    read_sparse_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits, watch)
 }
 
 /// [`read_volume`] for a file in memory; `label` stands for its path, extension included.
@@ -93,20 +97,28 @@ pub fn read_volume_bytes(
     grid: Option<&str>,
     limits: &Limits,
 ) -> Result<VoxelGrid, VolumeError> {
-    read_volume_bytes_watched(bytes, label, grid, limits, &|_| ())
+    read_array(format_of(bytes, label, grid)?, bytes, label, grid, limits)
 }
 
-/// [`read_volume_watched`] for a file in memory.
+/// [`read_sparse_volume`] for a file in memory.
 ///
 /// # Errors
 /// As [`read_volume`].
-pub fn read_volume_bytes_watched(
+pub fn read_sparse_volume_bytes(
     bytes: &[u8],
     label: &str,
     grid: Option<&str>,
     limits: &Limits,
     watch: &dyn Fn(f64),
-) -> Result<VoxelGrid, VolumeError> {
+) -> Result<Volume, VolumeError> {
+    match format_of(bytes, label, grid)? {
+        Format::OpenVdb => vdb::read_sparse(bytes, label, grid, limits, watch),
+        other => read_array(other, bytes, label, grid, limits).map(Volume::Array),
+    }
+}
+
+/// The format of a file, in which a grid may have been named.
+fn format_of(bytes: &[u8], label: &str, grid: Option<&str>) -> Result<Format, VolumeError> {
     let Some(format) = Format::of(label, bytes) else {
         let what = "this file format";
         let cure = "Use an OpenVDB (.vdb), NumPy (.npy), Mitsuba (.vol) or raw float32 (.raw) file";
@@ -119,8 +131,18 @@ pub fn read_volume_bytes_watched(
             available: Vec::new(),
         });
     }
+    Ok(format)
+}
+
+fn read_array(
+    format: Format,
+    bytes: &[u8],
+    label: &str,
+    grid: Option<&str>,
+    limits: &Limits,
+) -> Result<VoxelGrid, VolumeError> {
     match format {
-        Format::OpenVdb => vdb::read_vdb_bytes_watched(bytes, label, grid, limits, watch),
+        Format::OpenVdb => read_vdb_bytes(bytes, label, grid, limits),
         Format::Npy => read_npy_bytes(bytes, label, limits),
         Format::MitsubaVol => read_mitsuba_vol_bytes(bytes, label, limits),
         Format::Raw => read_raw_bytes(bytes, label, limits),

@@ -1,15 +1,18 @@
 //! Samples on a lattice over the unit cube, trilinear between.
 
+mod bricks;
 mod precision;
 mod store;
 #[cfg(test)]
 mod tests;
 
+pub use bricks::{BRICK_EDGE, Bricks};
 pub use precision::{Interpolation, Precision};
-pub use store::BRICK_EDGE;
 
 use crate::math::numbers_of_point;
+use bricks::BRICK;
 use glam::Vec3;
+use rayon::prelude::*;
 use store::Store;
 
 /// Where along an axis of the unit cube the `n` samples stand.
@@ -57,41 +60,32 @@ impl<const C: usize> Grid<C> {
     /// As [`Self::new`], kept as `packing` says.
     #[must_use]
     pub fn packed(size: [usize; 3], values: &[[f32; C]], lattice: Lattice, packing: Packing) -> Option<Self> {
-        let count = size[0].checked_mul(size[1])?.checked_mul(size[2])?;
-        if count == 0 || count != values.len() {
-            return None;
-        }
+        Some(Self::of_bricks(Bricks::of_array(size, values, packing.phase)?, lattice, packing.precision))
+    }
+
+    /// A grid of bricks.
+    #[must_use]
+    pub fn of_bricks(bricks: Bricks<C>, lattice: Lattice, precision: Precision) -> Self {
+        let size = bricks.size;
         let n = Vec3::from(size.map(|n| n as f32));
         let last = n - Vec3::ONE;
         let (scale, offset) = match lattice {
             Lattice::CellCentred => (n, Vec3::splat(-0.5)),
             Lattice::VertexCentred => (last, Vec3::ZERO),
         };
-        let background = [0.0; C];
-        let phase = packing.phase.map(|p| p % BRICK_EDGE);
-        let store = Store::pack(size, values, background, phase, packing.precision);
-        let mut max = [f32::NEG_INFINITY; C];
-        let mut sum = [0.0f64; C];
-        let (mut occupied, mut error) = (0, 0.0f32);
-        for (i, value) in values.iter().enumerate() {
-            if *value == background {
-                max = max.map(|m| m.max(0.0));
-                continue;
-            }
-            occupied += 1;
-            let kept = match packing.precision {
-                Precision::F32 => *value,
-                _ => store.sample([i % size[0], i / size[0] % size[1], i / size[0] / size[1]]),
-            };
-            for c in 0..C {
-                max[c] = max[c].max(kept[c]);
-                sum[c] += f64::from(kept[c]);
-                error = error.max((kept[c] - value[c]).abs());
-            }
-        }
-        let mean = sum.map(|s| (s / count as f64) as f32);
-        let precision = packing.precision;
-        Some(Self { size, store, scale, offset, last, max, mean, occupied, error, precision })
+        let uses = bricks.uses();
+        let exact = (precision != Precision::F32).then(|| bricks.values.clone());
+        let store = Store::new(bricks, precision);
+        let totals: Vec<_> = uses
+            .par_iter()
+            .enumerate()
+            .filter(|(_, uses)| **uses > 0)
+            .map(|(brick, uses)| Totals::of_brick(&store, brick, *uses, exact.as_deref()))
+            .collect();
+        let Totals { max, sum, occupied, error } = totals.into_iter().fold(Totals::ZERO, Totals::and);
+        let count = size.iter().map(|n| *n as f64).product::<f64>();
+        let mean = sum.map(|s| (s / count) as f32);
+        Self { size, store, scale, offset, last, max, mean, occupied, error, precision }
     }
 
     /// The value at a point of the unit cube.
@@ -193,5 +187,44 @@ impl<const C: usize> Grid<C> {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.store.bytes()
+    }
+}
+
+/// What is known of many samples.
+struct Totals<const C: usize> {
+    max: [f32; C],
+    sum: [f64; C],
+    occupied: usize,
+    error: f32,
+}
+
+impl<const C: usize> Totals<C> {
+    const ZERO: Self = Self { max: [0.0; C], sum: [0.0; C], occupied: 0, error: 0.0 };
+
+    /// Of a brick that stands at `uses` places, against the values that it was made of.
+    fn of_brick(store: &Store<C>, brick: usize, uses: u64, exact: Option<&[[f32; C]]>) -> Self {
+        let mut totals = Self::ZERO;
+        for place in brick * BRICK..(brick + 1) * BRICK {
+            let kept = store.value(place);
+            let value = exact.map_or(kept, |values| values[place]);
+            totals.occupied += usize::from(value != [0.0; C]);
+            for c in 0..C {
+                totals.max[c] = totals.max[c].max(kept[c]);
+                totals.sum[c] += f64::from(kept[c]);
+                totals.error = totals.error.max((kept[c] - value[c]).abs());
+            }
+        }
+        totals.occupied *= uses as usize;
+        totals.sum = totals.sum.map(|sum| sum * uses as f64);
+        totals
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            max: std::array::from_fn(|c| self.max[c].max(other.max[c])),
+            sum: std::array::from_fn(|c| self.sum[c] + other.sum[c]),
+            occupied: self.occupied + other.occupied,
+            error: self.error.max(other.error),
+        }
     }
 }

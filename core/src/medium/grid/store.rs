@@ -1,21 +1,18 @@
-//! Samples in memory: bricks of 8³, of which those that hold nothing but the background are shared.
+//! Samples in memory: bricks of 8³, of which those that hold nothing are shared.
 //!
 //! ```text
 //!   brick = index[x/8, y/8, z/8]      value = values[512 · brick + x%8 + 8 (y%8) + 64 (z%8)]
 //! ```
 //!
-//! Brick 0 is the background, so that a look-up is the same everywhere. Bricks have no halo: two thirds of
+//! Brick 0 is zero, so that a look-up is the same everywhere. Bricks have no halo: two thirds of
 //! all cells lie within one brick, and the memory stays that of the voxels. They are laid so that a file's
 //! own blocks of 8³ fall on them.
 
 use super::Precision;
+use super::bricks::{BRICK, BRICK_EDGE, Bricks, local};
 use half::f16;
 use half::slice::HalfFloatSliceExt;
 use rayon::prelude::*;
-
-/// Samples along the edge of a brick.
-pub const BRICK_EDGE: usize = 8;
-const BRICK: usize = BRICK_EDGE * BRICK_EDGE * BRICK_EDGE;
 
 /// Samples over a box, at some precision.
 #[derive(Clone, Debug)]
@@ -25,6 +22,8 @@ pub(super) struct Store<const C: usize> {
     /// Added to a sample's coordinates: where in its brick the box begins.
     phase: [usize; 3],
     index: Vec<u32>,
+    /// Whether a row of bricks along x holds any but brick 0.
+    occupied: Vec<bool>,
     values: Values<C>,
 }
 
@@ -41,50 +40,11 @@ enum Values<const C: usize> {
 struct Corners([usize; 8]);
 
 impl<const C: usize> Store<C> {
-    /// Packs `size` samples, x fastest, that are `background` outside of the box.
-    pub fn pack(
-        size: [usize; 3],
-        samples: &[[f32; C]],
-        background: [f32; C],
-        phase: [usize; 3],
-        precision: Precision,
-    ) -> Self {
-        let bricks: [usize; 3] = std::array::from_fn(|a| (size[a] + phase[a]).div_ceil(BRICK_EDGE));
-        let count = bricks.iter().product::<usize>();
-        // The box that a brick covers, in samples.
-        let span = |brick: usize, axis: usize| {
-            let at = [brick % bricks[0], brick / bricks[0] % bricks[1], brick / bricks[0] / bricks[1]][axis];
-            let first = (at * BRICK_EDGE).max(phase[axis]) - phase[axis];
-            (first, ((at + 1) * BRICK_EDGE - phase[axis]).min(size[axis]))
-        };
-        let row = |y: usize, z: usize| size[0] * (y + size[1] * z);
-        let is_background = |brick: usize| {
-            let ((x0, x1), (y0, y1), (z0, z1)) = (span(brick, 0), span(brick, 1), span(brick, 2));
-            (z0..z1).all(|z| {
-                (y0..y1).all(|y| samples[row(y, z) + x0..row(y, z) + x1].iter().all(|v| *v == background))
-            })
-        };
-        let empty: Vec<bool> = (0..count).into_par_iter().map(is_background).collect();
-        let mut kept = Vec::new();
-        let index = empty.iter().enumerate().map(|(brick, empty)| {
-            if *empty {
-                return 0;
-            }
-            kept.push(brick);
-            kept.len() as u32
-        });
-        let index: Vec<u32> = index.collect();
-        let mut values = vec![background; (kept.len() + 1) * BRICK];
-        values[BRICK..].par_chunks_exact_mut(BRICK).zip(&kept).for_each(|(to, brick)| {
-            let ((x0, x1), (y0, y1), (z0, z1)) = (span(*brick, 0), span(*brick, 1), span(*brick, 2));
-            for z in z0..z1 {
-                for y in y0..y1 {
-                    let place = local([x0 + phase[0], y + phase[1], z + phase[2]]);
-                    to[place..place + x1 - x0].copy_from_slice(&samples[row(y, z) + x0..row(y, z) + x1]);
-                }
-            }
-        });
-        Self { bricks, phase, index, values: Values::at(values, precision) }
+    /// Keeps bricks at some precision.
+    pub fn new(bricks: Bricks<C>, precision: Precision) -> Self {
+        let Bricks { phase, counts, index, values, .. } = bricks;
+        let occupied = index.chunks_exact(counts[0]).map(|row| row.iter().any(|brick| *brick != 0)).collect();
+        Self { bricks: counts, phase, index, occupied, values: Values::at(values, precision) }
     }
 
     /// The value of one sample.
@@ -93,8 +53,9 @@ impl<const C: usize> Store<C> {
         self.value(self.place(at))
     }
 
+    /// Value number `place` of all bricks.
     #[inline]
-    fn value(&self, place: usize) -> [f32; C] {
+    pub fn value(&self, place: usize) -> [f32; C] {
         match &self.values {
             Values::F32(values) => values[place],
             Values::F16(values) => values[place].map(f16::to_f32),
@@ -155,10 +116,11 @@ impl<const C: usize> Store<C> {
     pub fn row(&self, [y, z]: [usize; 2], count: usize, row: &mut Vec<[f32; C]>) -> bool {
         row.clear();
         let [nx, ny, _] = self.bricks;
-        let first = nx * ((y + self.phase[1]) / BRICK_EDGE + ny * ((z + self.phase[2]) / BRICK_EDGE));
-        if self.index[first..first + nx].iter().all(|brick| *brick == 0) {
+        let bricks = (y + self.phase[1]) / BRICK_EDGE + ny * ((z + self.phase[2]) / BRICK_EDGE);
+        if !self.occupied[bricks] {
             return false;
         }
+        let first = nx * bricks;
         let within = local([0, y + self.phase[1], z + self.phase[2]]);
         row.extend((self.phase[0]..self.phase[0] + count).map(|x| {
             let brick = self.index[first + x / BRICK_EDGE] as usize;
@@ -174,14 +136,8 @@ impl<const C: usize> Store<C> {
             Values::F16(values) => size_of_val(&values[..]),
             Values::U8(values, _) => size_of_val(&values[..]),
         };
-        values + size_of_val(&self.index[..])
+        values + size_of_val(&self.index[..]) + size_of_val(&self.occupied[..])
     }
-}
-
-#[inline]
-fn local([x, y, z]: [usize; 3]) -> usize {
-    let inside = |i: usize| i % BRICK_EDGE;
-    inside(x) + BRICK_EDGE * (inside(y) + BRICK_EDGE * inside(z))
 }
 
 impl<const C: usize> Values<C> {

@@ -15,10 +15,7 @@ use super::tree::LEAF_EDGE;
 /// # Errors
 /// No voxel is active, or the box exceeds the limit (long before memory is asked for).
 pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid, Fault> {
-    let bbox = sparse.active_bbox().ok_or_else(|| {
-        Fault::invalid(None, "no voxel is active")
-            .with_cure("Export a frame in which the volume is not empty, or choose another grid")
-    })?;
+    let bbox = active_box(sparse)?;
     let channels = sparse.channels;
     let len = limits.dense_values(bbox.size(), channels)?;
     let size = bbox.size().map(|n| n as usize);
@@ -54,6 +51,17 @@ pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid,
     };
     grid.repair_and_count();
     Ok(grid)
+}
+
+/// The box around active voxels.
+///
+/// # Errors
+/// There are none.
+pub(super) fn active_box(sparse: &SparseGrid) -> Result<IndexBox, Fault> {
+    sparse.active_bbox().ok_or_else(|| {
+        Fault::invalid(None, "no voxel is active")
+            .with_cure("Export a frame in which the volume is not empty, or choose another grid")
+    })
 }
 
 /// Up to eight z planes of the dense grid, aligned to the leaves: slabs share no leaf, and can be

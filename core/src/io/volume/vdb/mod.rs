@@ -4,8 +4,8 @@
 //! real files contain, and is memory-unsafe on damaged Blosc chunks. So the work is split:
 //!
 //! ```text
-//! header → archive → preflight ─ walk of the tree ─→ transcript → vdb-rs → sparse → dense
-//!  magic    grids     head, map   masks, tiles,       one sound    values   stats    VoxelGrid
+//! header → archive → preflight ─ walk of the tree ─→ transcript → vdb-rs → sparse ─→ blocks, BlockGrid
+//!  magic    grids     head, map   masks, tiles,       one sound    values   stats  └→ dense, VoxelGrid
 //!                                 chunks (blosc)      grid
 //! ```
 //!
@@ -13,7 +13,7 @@
 //! * [`value_type`], [`compression`], [`blosc`], [`block`], [`map`], [`mask`]: the parts of a grid;
 //! * [`tree`], [`preflight`]: the check of every size against the file's length;
 //! * [`transcript`]: the file of our own that `vdb-rs` gets to see;
-//! * [`read`], [`sparse`], [`dense`], [`info`](mod@info): what comes back, and its uses.
+//! * [`read`], [`sparse`], [`blocks`], [`dense`], [`info`](mod@info): what comes back, and its uses.
 //!
 //! Read: float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
 //! versions 220 to 224 with every compression, half floats, linear maps, instances, tiles, files
@@ -21,6 +21,7 @@
 
 mod archive;
 mod block;
+mod blocks;
 mod blosc;
 mod compression;
 mod dense;
@@ -42,12 +43,15 @@ use std::path::Path;
 pub use self::info::{Background, GridInfo, info, info_bytes};
 pub(super) use header::MAGIC;
 
+use super::blocks::{BlockGrid, Volume};
 use super::error::{Fault, VolumeError};
 use super::file;
 use super::grid::VoxelGrid;
 use super::limits::Limits;
 use archive::Archive;
+use glam::DAffine3;
 use preflight::Preflight;
+use sparse::SparseGrid;
 use value_type::ValueType;
 
 /// The grid that is read when none is named.
@@ -77,7 +81,43 @@ pub fn read_vdb_bytes(
     grid: Option<&str>,
     limits: &Limits,
 ) -> Result<VoxelGrid, VolumeError> {
-    read_vdb_bytes_watched(bytes, label, grid, limits, &|_| ())
+    read(bytes, label, grid, limits, &|_| (), |sparse, head| head.array(dense::densify(&sparse, limits)?))
+}
+
+/// As [`read_vdb_bytes`], but into blocks where the background is zero, telling `watch` the share that is done.
+pub(super) fn read_sparse(
+    bytes: &[u8],
+    label: &str,
+    grid: Option<&str>,
+    limits: &Limits,
+    watch: &dyn Fn(f64),
+) -> Result<Volume, VolumeError> {
+    read(bytes, label, grid, limits, watch, |sparse, head| {
+        if sparse.background[..sparse.channels].iter().all(|b| *b == 0.0) {
+            head.blocks(blocks::blocks(sparse, limits)?).map(Volume::Blocks)
+        } else {
+            head.array(dense::densify(&sparse, limits)?).map(Volume::Array)
+        }
+    })
+}
+
+/// What stands in front of a grid's tree.
+struct Head {
+    name: String,
+    world_from_index: DAffine3,
+    level_set: bool,
+}
+
+impl Head {
+    fn array(self, voxels: VoxelGrid) -> Result<VoxelGrid, Fault> {
+        let Self { name, world_from_index, level_set } = self;
+        Ok(VoxelGrid { name, world_from_index, level_set, ..voxels })
+    }
+
+    fn blocks(self, blocks: BlockGrid) -> Result<BlockGrid, Fault> {
+        let Self { name, world_from_index, level_set } = self;
+        Ok(BlockGrid { name, world_from_index, level_set, ..blocks })
+    }
 }
 
 /// Share of the work that checking a file is, and that it is together with unpacking, as measured on a cloud of four
@@ -85,28 +125,32 @@ pub fn read_vdb_bytes(
 const CHECKED: f64 = 0.25;
 const UNPACKED: f64 = 0.8;
 
-/// [`read_vdb_bytes`], telling `watch` the share that is done.
-pub(super) fn read_vdb_bytes_watched(
+/// Unpacks a grid and hands it on, telling `watch` the share that is done.
+fn read<T>(
     bytes: &[u8],
     label: &str,
     grid: Option<&str>,
     limits: &Limits,
     watch: &dyn Fn(f64),
-) -> Result<VoxelGrid, VolumeError> {
+    then: impl FnOnce(SparseGrid, Head) -> Result<T, Fault>,
+) -> Result<T, VolumeError> {
     let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
     let (index, preflight) = choose(&archive, label, grid, limits)?;
     let name = &archive.grids[index].display_name;
-    let dense = |preflight: Preflight| {
-        let world_from_index = preflight.world_from_index;
-        let level_set = preflight.class == "level set";
+    let unpack = || {
+        let head = Head {
+            name: name.clone(),
+            world_from_index: preflight.world_from_index,
+            level_set: preflight.class == "level set",
+        };
         watch(CHECKED);
         let sparse = read::unpack(preflight, &|share| watch(CHECKED + share * (UNPACKED - CHECKED)))?;
         watch(UNPACKED);
-        let dense = dense::densify(&sparse, limits)?;
+        let read = then(sparse, head)?;
         watch(1.0);
-        Ok(VoxelGrid { name: name.clone(), world_from_index, level_set, ..dense })
+        Ok(read)
     };
-    dense(preflight).map_err(|fault: Fault| fault.in_file(label, Some(name)))
+    unpack().map_err(|fault: Fault| fault.in_file(label, Some(name)))
 }
 
 /// Finds the grid that is asked for, and checks it.

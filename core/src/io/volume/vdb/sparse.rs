@@ -104,7 +104,7 @@ impl Leaf {
 }
 
 impl Tile {
-    fn voxels(&self) -> u64 {
+    pub(super) fn voxels(&self) -> u64 {
         u64::from(self.edge.unsigned_abs()).pow(3)
     }
 

@@ -1,0 +1,103 @@
+//! From leaves and tiles to blocks over the active bounding box, without an array of the box.
+
+use rayon::prelude::*;
+
+use super::super::blocks::{BLOCK, BlockGrid, ConstantTile};
+use super::super::error::Fault;
+use super::super::limits::Limits;
+use super::dense::active_box;
+use super::mask;
+use super::sparse::{Leaf, SparseGrid};
+
+/// What a block brought to light.
+#[derive(Default)]
+struct Found {
+    repaired: u64,
+    negatives: u64,
+    /// The first voxel below zero in the order of an array.
+    first: Option<([i32; 3], f32)>,
+    empty: bool,
+}
+
+/// The blocks of `sparse`, whose background is zero. Name, map and class are left for the caller.
+///
+/// # Errors
+/// No voxel is active, or the box exceeds the limit (long before memory is asked for).
+pub(super) fn blocks(sparse: SparseGrid, limits: &Limits) -> Result<BlockGrid, Fault> {
+    let bbox = active_box(&sparse)?;
+    limits.blocks(bbox.size())?;
+    let SparseGrid { channels, leaves, mut leaf_values, tiles, .. } = sparse;
+    let found: Vec<_> = leaf_values
+        .par_chunks_exact_mut(BLOCK * channels)
+        .zip(&leaves)
+        .map(|(values, leaf)| rearrange(values, leaf, channels))
+        .collect();
+
+    // Blocks that hold nothing go; the others move up.
+    let mut origins = Vec::with_capacity(leaves.len());
+    for (number, leaf) in leaves.iter().enumerate().filter(|(number, _)| !found[*number].empty) {
+        let block = BLOCK * channels;
+        leaf_values.copy_within(number * block..(number + 1) * block, origins.len() * block);
+        origins.push(leaf.origin);
+    }
+    leaf_values.truncate(origins.len() * BLOCK * channels);
+
+    let mut grid = BlockGrid {
+        name: String::new(),
+        channels,
+        bbox: [bbox.min, bbox.max],
+        origins,
+        values: leaf_values,
+        tiles: Vec::new(),
+        world_from_index: glam::DAffine3::IDENTITY,
+        level_set: false,
+        repaired: found.iter().map(|f| f.repaired).sum(),
+        negative: None,
+    };
+    let mut negatives: u64 = found.iter().map(|f| f.negatives).sum();
+    let mut first = found.into_iter().filter_map(|f| f.first).min_by_key(|(at, _)| array_order(*at));
+    for tile in tiles {
+        let voxels = tile.voxels();
+        let value = &tile.value[..channels];
+        if value.iter().any(|v| !v.is_finite()) {
+            grid.repaired = grid.repaired.saturating_add(voxels);
+            continue;
+        }
+        if let Some(negative) = value.iter().find(|v| **v < 0.0) {
+            negatives = negatives.saturating_add(voxels);
+            let candidate = (tile.origin, *negative);
+            first = first.into_iter().chain([candidate]).min_by_key(|(at, _)| array_order(*at));
+        }
+        grid.tiles.push(ConstantTile { origin: tile.origin, edge: tile.edge, value: tile.value });
+    }
+    grid.negative = first.map(|(at, value)| (at, value, negatives));
+    Ok(grid)
+}
+
+fn array_order([x, y, z]: [i32; 3]) -> [i32; 3] {
+    [z, y, x]
+}
+
+/// From z fastest to x fastest; what is inactive or not finite becomes zero.
+fn rearrange(values: &mut [f32], leaf: &Leaf, channels: usize) -> Found {
+    let mut found = Found { empty: true, ..Found::default() };
+    let mut block = vec![0.0; values.len()];
+    for entry in mask::ones(&leaf.active) {
+        let [x, y, z] = mask::entry_offset(entry, 3, 1);
+        let voxel = &values[entry * channels..(entry + 1) * channels];
+        if voxel.iter().any(|v| !v.is_finite()) {
+            found.repaired += 1;
+            continue;
+        }
+        if let Some(negative) = voxel.iter().find(|v| **v < 0.0) {
+            found.negatives += 1;
+            let here = (mask::add(leaf.origin, [x, y, z]), *negative);
+            found.first = found.first.into_iter().chain([here]).min_by_key(|(at, _)| array_order(*at));
+        }
+        found.empty &= voxel.iter().all(|v| *v == 0.0);
+        let to = (x + 8 * y + 64 * z) as usize * channels;
+        block[to..to + channels].copy_from_slice(voxel);
+    }
+    values.copy_from_slice(&block);
+    found
+}
