@@ -10,6 +10,7 @@ mod components;
 mod doc;
 mod grey;
 mod observer;
+mod polyline;
 pub mod presets;
 mod rgb_channels;
 mod sampled;

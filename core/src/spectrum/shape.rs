@@ -1,7 +1,8 @@
 //! A spectrum as the renderer evaluates it.
 
 use super::combined::{Combined, Rule};
-use super::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, observer, presets};
+use super::polyline::Polyline;
+use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, observer, presets};
 use glam::Vec3;
 
 /// What a spectrum is a spectrum of; it decides how linear sRGB becomes one.
@@ -28,7 +29,7 @@ pub struct Spectrum {
 #[derive(Clone, Debug)]
 enum Shape {
     Constant(f32),
-    Points { points: Vec<ControlPoint>, outside: Outside },
+    Points(Polyline),
     Rgb(Vec3),
     RgbRadiance(Vec3),
     Combined(Box<Combined>),
@@ -41,12 +42,10 @@ impl Spectrum {
     pub fn new(doc: &SpectrumDoc, quantity: Quantity) -> Self {
         let shape = match doc {
             SpectrumDoc::Constant(value) => Shape::Constant(*value),
-            SpectrumDoc::Points { points, outside } => {
-                Shape::Points { points: points.clone(), outside: *outside }
-            }
+            SpectrumDoc::Points { points, outside } => Shape::Points(Polyline::new(points.clone(), *outside)),
             SpectrumDoc::Preset(id) => presets::find(id)
                 .and_then(|p| SpectrumDoc::parse_points(p.points).ok())
-                .map_or(Shape::Constant(0.0), |points| Shape::Points { points, outside: Outside::Hold }),
+                .map_or(Shape::Constant(0.0), |points| Shape::Points(Polyline::new(points, Outside::Hold))),
             SpectrumDoc::Rgb(rgb) => match quantity {
                 Quantity::Coefficient => Shape::Rgb((*rgb).into()),
                 Quantity::Radiance => Shape::RgbRadiance((*rgb).into()),
@@ -56,7 +55,7 @@ impl Spectrum {
         let rgb = match &shape {
             Shape::Constant(value) => Vec3::splat(*value),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb,
-            Shape::Points { .. } | Shape::Combined(_) => observer::band_means(|lambda| shape.at(lambda)),
+            Shape::Points(_) | Shape::Combined(_) => observer::band_means(|lambda| shape.at(lambda)),
         };
         let film = shape.film_colour();
         Self { shape, rgb, film }
@@ -92,7 +91,7 @@ impl Spectrum {
         self.film *= factor;
         match &mut self.shape {
             Shape::Constant(value) => *value *= factor,
-            Shape::Points { points, .. } => points.iter_mut().for_each(|p| p.value *= factor),
+            Shape::Points(line) => line.scale(factor),
             Shape::Rgb(rgb) | Shape::RgbRadiance(rgb) => *rgb *= factor,
             Shape::Combined(combined) => combined.factor *= factor,
         }
@@ -130,8 +129,10 @@ impl Spectrum {
         match &self.shape {
             Shape::Constant(_) => {}
             // A piecewise linear function is largest at a point or at an end of the range.
-            Shape::Points { points, .. } => {
-                for p in points.iter().filter(|p| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&p.lambda_nm)) {
+            Shape::Points(line) => {
+                for p in
+                    line.points().iter().filter(|p| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&p.lambda_nm))
+                {
                     max = max.max(p.value);
                 }
             }
@@ -161,10 +162,8 @@ impl Shape {
     /// A constant, where it is one in other words.
     fn simplified(self) -> Self {
         match self {
-            Self::Points { points, outside: Outside::Hold }
-                if points.windows(2).all(|p| p[0].value == p[1].value) =>
-            {
-                Self::Constant(points.first().map_or(0.0, |p| p.value))
+            Self::Points(line) if line.is_flat() => {
+                Self::Constant(line.points().first().map_or(0.0, |p| p.value))
             }
             Self::Rgb(rgb) if rgb == Vec3::splat(rgb.x) => Self::Constant(rgb.x),
             other => other,
@@ -177,7 +176,7 @@ impl Shape {
 
     fn knots(&self) -> Vec<f32> {
         match self {
-            Self::Points { points, .. } => points.iter().map(|p| p.lambda_nm).collect(),
+            Self::Points(line) => line.points().iter().map(|p| p.lambda_nm).collect(),
             Self::Combined(combined) => combined.knots(),
             Self::Constant(_) | Self::Rgb(_) | Self::RgbRadiance(_) => Vec::new(),
         }
@@ -186,28 +185,11 @@ impl Shape {
     fn at(&self, lambda_nm: f32) -> f32 {
         match self {
             Self::Constant(value) => *value,
-            Self::Points { points, outside } => interpolate(points, *outside, lambda_nm),
+            Self::Points(line) => line.at(lambda_nm),
             Self::Rgb(rgb) => observer::basis(lambda_nm).dot(*rgb),
             Self::RgbRadiance(rgb) => observer::basis(lambda_nm).dot(*rgb) * observer::daylight(lambda_nm),
             Self::Combined(combined) => combined.at(lambda_nm),
         }
-    }
-}
-
-fn interpolate(points: &[ControlPoint], outside: Outside, lambda_nm: f32) -> f32 {
-    let after = points.partition_point(|p| p.lambda_nm <= lambda_nm);
-    let beyond = |end: &ControlPoint| match outside {
-        Outside::Hold => end.value,
-        Outside::Zero if end.lambda_nm == lambda_nm => end.value,
-        Outside::Zero => 0.0,
-    };
-    match (after.checked_sub(1).and_then(|i| points.get(i)), points.get(after)) {
-        (Some(a), Some(b)) => {
-            let s = (lambda_nm - a.lambda_nm) / (b.lambda_nm - a.lambda_nm);
-            a.value + (b.value - a.value) * s
-        }
-        (Some(end), None) | (None, Some(end)) => beyond(end),
-        (None, None) => 0.0,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Samples on a lattice over the unit cube, trilinear between.
 
 mod bricks;
+mod pages;
 mod precision;
 mod store;
 #[cfg(test)]

@@ -10,6 +10,7 @@
 
 use super::Precision;
 use super::bricks::{BRICK, BRICK_EDGE, Bricks, local};
+use super::pages::Pages;
 use half::f16;
 use half::slice::HalfFloatSliceExt;
 use rayon::prelude::*;
@@ -29,10 +30,10 @@ pub(super) struct Store<const C: usize> {
 
 #[derive(Clone, Debug)]
 enum Values<const C: usize> {
-    F32(Vec<[f32; C]>),
-    F16(Vec<[f16; C]>),
+    F32(Pages<[f32; C]>),
+    F16(Pages<[f16; C]>),
     /// Steps of a fixed size per channel.
-    U8(Vec<[u8; C]>, [f32; C]),
+    U8(Pages<[u8; C]>, [f32; C]),
 }
 
 /// Where eight samples around a cell lie.
@@ -143,8 +144,11 @@ impl<const C: usize> Store<C> {
 impl<const C: usize> Values<C> {
     fn at(values: Vec<[f32; C]>, precision: Precision) -> Self {
         match precision {
-            Precision::F32 => Self::F32(values),
-            Precision::F16 => Self::F16(values.into_par_iter().map(|v| v.map(f16::from_f32)).collect()),
+            Precision::F32 => Self::F32(values.into()),
+            Precision::F16 => {
+                let halves: Vec<_> = values.into_par_iter().map(|v| v.map(f16::from_f32)).collect();
+                Self::F16(halves.into())
+            }
             Precision::U8 => {
                 let largest = values
                     .par_iter()
@@ -152,7 +156,7 @@ impl<const C: usize> Values<C> {
                     .reduce(|| [0.0; C], |a, b| std::array::from_fn(|c| a[c].max(b[c])));
                 let step = largest.map(|max| if max > 0.0 { max / 255.0 } else { 1.0 });
                 let code = |v: [f32; C]| std::array::from_fn(|c| (v[c] / step[c]).round() as u8);
-                Self::U8(values.into_par_iter().map(code).collect(), step)
+                Self::U8(values.into_par_iter().map(code).collect::<Vec<_>>().into(), step)
             }
         }
     }
