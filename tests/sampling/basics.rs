@@ -103,7 +103,7 @@ fn events_come_as_often_as_their_densities_say() {
             // The other components must not have a say.
             let [extinction, albedo, majorant] =
                 [(case[0], 9.0), (case[1], 0.3), (case[2], 1.0)].map(|(x, other)| Sampled([x as f32, other]));
-            let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
+            let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };
             let coefficients = Coefficients::new(extinction, albedo, &segment);
             let collision = Collision::new(Vec3::ZERO, coefficients, absorption.into());
             let mut trace = Trace::new(Sampler::new(6, seed, 0), Wanted::ALWAYS);

@@ -213,7 +213,7 @@ impl LocalMedium<3> for Stretches {
         let at = |cut: f32| ray.t_end * cut;
         let stretch = |(cut, m): (&[f32], [f32; 3])| {
             let majorant = Sampled(std::array::from_fn(|i| m[(self.hero + i) % 3]));
-            MajorantSegment { t0: at(cut[0]), t1: at(cut[1]), majorant, clamp_null: false }
+            MajorantSegment { t0: at(cut[0]), t1: at(cut[1]), majorant, clamp_null: false, watched: false }
         };
         CUTS.windows(2).zip(MAJORANTS).map(stretch).collect::<Vec<_>>().into_iter()
     }

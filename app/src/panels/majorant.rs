@@ -73,6 +73,19 @@ impl Panel for Majorant {
                 );
             });
         }
+        if let Some(violations) = cx.state.probe.as_ref().map(|probe| &probe.scene().violations) {
+            let count = violations.exceeded_cells();
+            if count > 0 {
+                let tip = "Cells in which a flight has found σt larger than μ since μ was set or raised. M shows them";
+                row(ui, "Violations", tip, |ui, _| {
+                    let all = violations.cells().pow(3);
+                    ui.colored_label(
+                        Palette::get(ui).warning,
+                        egui::RichText::new(format!("{count} of {all} cells")).monospace(),
+                    );
+                });
+            }
+        }
         slice_ui(ui, cx.settings.majorant_slice, cells.is_some(), cx.commands);
         let majorant = &mut cx.draft.medium.majorant;
         let shared = "Every wavelength gets the largest one's majorant";
@@ -81,6 +94,11 @@ impl Panel for Majorant {
             let options = [
                 (WhenExceeded::Weighted, "Weighted", "σn = μ − σt turns negative; the weights stay right"),
                 (WhenExceeded::Clamp, "Clamp", "σn is held at 0: the textbook mistake, biased"),
+                (
+                    WhenExceeded::Progressive,
+                    "Raise",
+                    "Clamped, and bounds are raised to what was found after 1, 2, 4, 8, … samples: the error vanishes",
+                ),
             ];
             segmented(ui, "Where exceeded", &mut majorant.when_exceeded, &options);
         });
@@ -137,6 +155,11 @@ fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'stat
             palette.error,
             "clamp: biased",
             "μ is below the largest σt and null collisions are clamped: the picture converges to a wrong, brighter or darker one.",
+        ),
+        WhenExceeded::Progressive => (
+            palette.warning,
+            "raised: consistent",
+            "μ is below the largest σt. Cells in which σt > μ was found get a larger μ after 1, 2, 4, 8, … samples per pixel: early samples are biased, their share vanishes.",
         ),
     })
 }

@@ -2,7 +2,8 @@
 //!
 //! One slice of the grid is shown, across the axis that the camera looks along most; deeper slices lie behind it.
 //! A cell's colour is its tightness, mean density over bound: 1 where every collision is real, near 0 where nearly all are
-//! null. Empty cells, which a flight passes for free, are left clear.
+//! null. Cells in which a flight has found the extinction to exceed the majorant are red, the more it did the fuller.
+//! Empty cells, which a flight passes for free, are left clear.
 
 use super::image_view::ImageView;
 use crate::theme::Palette;
@@ -32,6 +33,7 @@ pub fn paint(
     let n = cells.cells();
     let mut mesh = Mesh::default();
     let mut lines = Vec::new();
+    let mut violated = false;
     let line = Stroke::new(0.5, Color32::from_white_alpha(60));
     for (j, i) in (0..n).flat_map(|j| (0..n).map(move |i| (j, i))) {
         let at = |i: usize, j: usize| corners[i + (n + 1) * j];
@@ -39,9 +41,12 @@ pub fn paint(
         else {
             continue;
         };
-        let Some(tightness) = cells.tightness(slice.cell(i, j)) else { continue };
+        let cell = slice.cell(i, j);
+        let Some(tightness) = cells.tightness(cell) else { continue };
         let first = mesh.vertices.len() as u32;
-        let colour = colour(tightness).gamma_multiply(ALPHA);
+        let excess = scene.violations.largest(cell);
+        violated |= excess > 1.0;
+        let colour = if excess > 1.0 { violation(excess) } else { colour(tightness).gamma_multiply(ALPHA) };
         for corner in [a, b, c, d] {
             mesh.colored_vertex(corner, colour);
         }
@@ -54,6 +59,9 @@ pub fn paint(
     painter.add(mesh);
     painter.extend(lines);
     legend(ui, &painter, canvas, &slice, n);
+    if violated {
+        violation_legend(ui, &painter, canvas);
+    }
 }
 
 /// A layer of cells.
@@ -110,6 +118,25 @@ impl Slice {
 fn colour(tightness: f32) -> Color32 {
     let colorous::Color { r, g, b } = colorous::VIRIDIS.eval_continuous(f64::from(tightness.clamp(0.0, 1.0)));
     Color32::from_rgb(r, g, b)
+}
+
+/// Of a cell whose majorant was exceeded so many times over.
+fn violation(excess: f32) -> Color32 {
+    let fullness = 0.35 + 0.5 * (1.0 - 1.0 / excess.max(1.0));
+    Color32::from_rgb(225, 40, 40).gamma_multiply(fullness)
+}
+
+/// What red means, above the bar.
+fn violation_legend(ui: &Ui, painter: &Painter, canvas: Rect) {
+    let palette = Palette::get(ui);
+    let font = TextStyle::Small.resolve(ui.style());
+    let at = canvas.left_bottom() + vec2(8.0, -80.0);
+    let plate = Rect::from_min_size(at, vec2(236.0, 24.0).min(canvas.size() - Vec2::splat(16.0)));
+    painter.rect_filled(plate, 4.0, palette.panel.gamma_multiply(0.9));
+    let swatch = Rect::from_center_size(plate.left_center() + vec2(14.0, 0.0), Vec2::splat(10.0));
+    painter.rect_filled(swatch, 2.0, violation(4.0));
+    let text = "the extinction exceeds the majorant";
+    painter.text(swatch.right_center() + vec2(8.0, 0.0), Align2::LEFT_CENTER, text, font, palette.text);
 }
 
 /// A bar with its ends named, in the lower left corner.

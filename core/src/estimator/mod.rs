@@ -85,8 +85,13 @@ impl Entry {
 /// What biases every estimator that samples free flights by a majorant: cutting the medium off at it.
 fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
     let majorant = &doc.medium.majorant;
-    let cut = majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp;
-    cut.then_some("the majorant is clamped")
+    match majorant.when_exceeded {
+        WhenExceeded::Clamp if majorant.factor < 1.0 => Some("the majorant is clamped"),
+        WhenExceeded::Progressive if majorant.factor < 1.0 => {
+            Some("the majorant is clamped until it has been raised: the error vanishes with more samples")
+        }
+        _ => None,
+    }
 }
 
 /// What biases estimators whose connections may be estimated in any way.

@@ -14,6 +14,8 @@ pub struct Coefficients<const N: usize> {
     pub null: Sampled<N>,
     /// Majorant μ̄.
     pub majorant: Sampled<N>,
+    /// Largest quotient μt / μ̄ over components, of the medium as it is, where it exceeds 1 and is looked for; else 1.
+    pub excess: f32,
 }
 
 impl<const N: usize> Coefficients<N> {
@@ -22,12 +24,13 @@ impl<const N: usize> Coefficients<N> {
     /// real collisions happen as often as collisions are drawn.
     #[must_use]
     pub fn new(mut extinction: Sampled<N>, albedo: Sampled<N>, segment: &MajorantSegment<N>) -> Self {
+        let excess = if segment.watched { excess(extinction, segment.majorant) } else { 1.0 };
         if segment.clamp_null {
             extinction = extinction.zip(segment.majorant, f32::min);
         }
         let scattering = extinction * albedo;
         let null = segment.majorant - extinction;
-        Self { absorption: extinction - scattering, scattering, null, majorant: segment.majorant }
+        Self { absorption: extinction - scattering, scattering, null, majorant: segment.majorant, excess }
     }
 
     /// Extinction μt = μa + μs.
@@ -35,4 +38,8 @@ impl<const N: usize> Coefficients<N> {
     pub fn extinction(&self) -> Sampled<N> {
         self.absorption + self.scattering
     }
+}
+
+fn excess<const N: usize>(extinction: Sampled<N>, majorant: Sampled<N>) -> f32 {
+    extinction.zip(majorant, |t, m| if t > m { t / m } else { 1.0 }).max_component()
 }

@@ -36,6 +36,11 @@ pub enum WhenExceeded {
     /// The null coefficient is clamped at zero, which cuts the medium off at the majorant: **biased**,
     /// the textbook mistake.
     Clamp,
+    /// Clamped, but wherever a flight finds the majorant exceeded the cell's bound is raised to what was found, once
+    /// every pixel has 1, 2, 4, 8, … samples (Misso et al. 2023, "Progressive null-tracking for volumetric rendering"):
+    /// **consistent**, since the share of samples that came before the last raise vanishes. Wins where no bound is
+    /// known, or a known one is far too loose.
+    Progressive,
 }
 
 /// A stretch of a ray with one majorant μ̄ per component.
@@ -49,7 +54,12 @@ pub struct MajorantSegment<const N: usize> {
     pub majorant: Sampled<N>,
     /// Whether null coefficients are clamped at zero where μt > μ̄: **biased**.
     pub clamp_null: bool,
+    /// Whether the extinction may exceed the majorant, so that it has to be looked for.
+    pub watched: bool,
 }
+
+/// A quotient of two rounded numbers, times one of them, may fall short of the other.
+pub(super) const ROUNDED_UP: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 /// How the majorant relates to the least upper bound of the extinction.
 #[derive(Clone, Copy, Debug)]
@@ -57,13 +67,39 @@ pub struct MajorantPolicy {
     factor: f32,
     shared: bool,
     clamp_null: bool,
+    progressive: bool,
 }
 
 impl MajorantPolicy {
     /// Freezes the edited choice.
     #[must_use]
     pub fn new(doc: &MajorantDoc) -> Self {
-        Self { factor: doc.factor, shared: doc.shared, clamp_null: doc.when_exceeded == WhenExceeded::Clamp }
+        let progressive = doc.when_exceeded == WhenExceeded::Progressive;
+        let clamp_null = progressive || doc.when_exceeded == WhenExceeded::Clamp;
+        Self {
+            factor: doc.factor,
+            shared: doc.shared,
+            clamp_null,
+            progressive: progressive && doc.factor < 1.0,
+        }
+    }
+
+    /// Whether the extinction may exceed the majorant.
+    #[must_use]
+    pub fn is_watched(&self) -> bool {
+        self.factor < 1.0
+    }
+
+    /// Whether bounds are to be raised where they are found to be exceeded.
+    #[must_use]
+    pub fn is_progressive(&self) -> bool {
+        self.progressive
+    }
+
+    /// The same with all majorants `quotient` times as large.
+    #[must_use]
+    pub(super) fn raised(self, quotient: f32) -> Self {
+        Self { factor: self.factor * quotient * ROUNDED_UP, ..self }
     }
 
     /// The majorant of a medium whose extinction is bounded by `bound(λ)`.
@@ -88,6 +124,6 @@ impl MajorantPolicy {
     #[must_use]
     #[inline]
     pub fn segment<const N: usize>(&self, majorant: Sampled<N>, t0: f32, t1: f32) -> MajorantSegment<N> {
-        MajorantSegment { t0, t1, majorant, clamp_null: self.clamp_null }
+        MajorantSegment { t0, t1, majorant, clamp_null: self.clamp_null, watched: self.is_watched() }
     }
 }

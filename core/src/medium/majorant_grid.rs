@@ -1,6 +1,7 @@
 //! Local bounds of a field, from above and from below: one of each per cell of a coarse lattice over the unit cube.
 
-use super::{CellWalk, Grid, Interpolation};
+use super::majorant::ROUNDED_UP;
+use super::{CellWalk, Grid, Interpolation, Violations};
 use crate::math::BoxRay;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -67,6 +68,21 @@ impl<const C: usize> MajorantGrid<C> {
             grid.padded[first..first + cells].copy_from_slice(row);
         }
         grid
+    }
+
+    /// The same with every bound as many times as large as the extinction was found to exceed it.
+    #[must_use]
+    pub fn raised(&self, by: &Violations) -> Self {
+        let mut raised = self.clone();
+        for cell in 0..self.cells.pow(3) {
+            let at = [cell % self.cells, cell / self.cells % self.cells, cell / self.cells / self.cells];
+            let quotient = by.largest(at);
+            if quotient > 1.0 {
+                let number = self.number(at);
+                raised.padded[number] = raised.padded[number].map(|b| b * quotient * ROUNDED_UP);
+            }
+        }
+        raised
     }
 
     /// Half as many cells per axis, each the largest of eight; `None` for an odd number of cells.

@@ -20,6 +20,7 @@ mod majorants;
 mod outlook;
 mod rgb_grids;
 mod shared_majorant;
+mod violations;
 
 pub use albedo::{diffuse_albedo, single_scattering_albedo};
 pub use cell_walk::{CellSegment, CellWalk};
@@ -34,10 +35,12 @@ pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
 pub use outlook::Outlook;
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 pub use shared_majorant::SharedMajorant;
+pub use violations::Violations;
 
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled};
 use glam::Vec3;
+use std::sync::Arc;
 
 /// A medium before a path has chosen its components.
 pub trait Medium: Send + Sync {
@@ -132,6 +135,41 @@ impl AnyMedium {
             Self::Homogeneous(_) => None,
             Self::DensityGrid(m) => Some(MajorantCells::Density(&m.bounds)),
             Self::RgbGrids(m) => m.majorant_cells(),
+        }
+    }
+
+    /// Whether the extinction may exceed the majorant.
+    #[must_use]
+    pub fn is_watched(&self) -> bool {
+        match self {
+            Self::Homogeneous(m) => m.majorant.is_watched(),
+            Self::DensityGrid(m) => m.majorant.is_watched(),
+            Self::RgbGrids(m) => m.majorant().is_watched(),
+        }
+    }
+
+    /// Whether its bounds are to be raised where they are found to be exceeded.
+    #[must_use]
+    pub fn is_progressive(&self) -> bool {
+        match self {
+            Self::Homogeneous(m) => m.majorant.is_progressive(),
+            Self::DensityGrid(m) => m.majorant.is_progressive(),
+            Self::RgbGrids(m) => m.majorant().is_progressive(),
+        }
+    }
+
+    /// The same under larger bounds, wherever the extinction was found to exceed them.
+    #[must_use]
+    pub fn raised(&self, by: &Violations) -> Self {
+        match self {
+            Self::Homogeneous(m) => Self::Homogeneous(Homogeneous {
+                majorant: m.majorant.raised(by.largest([0; 3])),
+                ..m.clone()
+            }),
+            Self::DensityGrid(m) => {
+                Self::DensityGrid(DensityGrid { bounds: Arc::new(m.bounds.raised(by)), ..m.clone() })
+            }
+            Self::RgbGrids(m) => Self::RgbGrids(m.raised(by)),
         }
     }
 

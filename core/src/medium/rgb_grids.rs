@@ -7,7 +7,7 @@
 use super::density_grid::DensitySegments;
 use super::{
     CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantCells, MajorantGrid, MajorantPolicy,
-    MajorantSegment, Medium, Outlook,
+    MajorantSegment, Medium, Outlook, Violations,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -57,6 +57,22 @@ impl RgbGrids {
 }
 
 impl RgbGrids {
+    /// How its majorant relates to its bounds.
+    pub(super) fn majorant(&self) -> MajorantPolicy {
+        self.majorant
+    }
+
+    /// See [`super::AnyMedium::raised`].
+    pub(super) fn raised(&self, by: &Violations) -> Self {
+        let mut raised = self.clone();
+        match &mut raised.extinction {
+            ExtinctionField::Uniform(_) => raised.majorant = self.majorant.raised(by.largest([0; 3])),
+            ExtinctionField::Density(_, bounds, _) => *bounds = Arc::new(bounds.raised(by)),
+            ExtinctionField::Rgb(_, bounds, _) => *bounds = Arc::new(bounds.raised(by)),
+        }
+        raised
+    }
+
     /// The cells of its local majorants, if extinction comes from a grid.
     #[must_use]
     pub fn majorant_cells(&self) -> Option<MajorantCells<'_>> {

@@ -10,7 +10,7 @@ use crate::light::{
 };
 use crate::medium::{
     AlbedoField, AnyMedium, DensityGrid, Emission, ExtinctionField, Grid, Homogeneous, MajorantGrid,
-    MajorantPolicy, Majorants, Precision, RgbGrids,
+    MajorantPolicy, Majorants, Precision, RgbGrids, Violations,
 };
 use crate::phase::{Phase, PhaseDoc, check_table};
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
@@ -116,6 +116,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         Role::Light(_) => true,
     });
 
+    let cells = medium.majorant_cells().map_or(1, |cells| cells.cells());
     Ok(Scene {
         lobes: LightLobes::towards(&lights),
         light_choice: LightChoice::new(&lights, 0.5 * (hi - lo).length()),
@@ -125,6 +126,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         height: doc.film.height,
         medium,
         emission,
+        violations: Arc::new(Violations::none(cells)),
         medium_from_world: world_from_unit.inverse(),
         phase,
         surfaces,

@@ -3,10 +3,11 @@
 use super::Camera;
 use crate::light::{Light, LightChoice, LightLobes};
 use crate::math::Ray;
-use crate::medium::{AnyMedium, Emission};
+use crate::medium::{AnyMedium, Emission, Violations};
 use crate::phase::Phase;
 use crate::surface::{Role, Surface, SurfaceHit};
 use glam::{Affine3A, Vec3};
+use std::sync::Arc;
 
 /// A frozen scene. Immutable and shared by every view that renders it.
 #[derive(Clone, Debug)]
@@ -19,6 +20,8 @@ pub struct Scene {
     pub height: u32,
     /// The medium, in the unit cube of its own space.
     pub medium: AnyMedium,
+    /// Where flights have found its extinction to exceed the majorant.
+    pub violations: Arc<Violations>,
     /// How it glows, if it does.
     pub emission: Option<Emission>,
     /// Takes points of the world into the medium's unit cube.
@@ -96,6 +99,23 @@ impl<'a> NearestSurface<'a> {
 }
 
 impl Scene {
+    /// The same scene, in which no violation of the majorant has been found yet.
+    #[must_use]
+    pub fn unwatched(&self) -> Self {
+        Self { violations: Arc::new(Violations::none(self.violations.cells())), ..self.clone() }
+    }
+
+    /// The same scene under bounds that are raised by all violations that were found, and none found yet; `None` if
+    /// there are none, or bounds are not to be raised.
+    #[must_use]
+    pub fn raised(&self) -> Option<Self> {
+        (self.medium.is_progressive() && self.violations.exceeded_cells() > 0).then(|| {
+            let mut raised = self.unwatched();
+            raised.medium = self.medium.raised(&self.violations);
+            raised
+        })
+    }
+
     /// Whether any surface stands in the way at `0 < t < t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {

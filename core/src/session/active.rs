@@ -108,7 +108,22 @@ impl Active {
             .min(left(self.limits.cpu_seconds, self.cpu_seconds))
             .clamp(1.0, 4096.0) as u32;
         let count = fitting.min(self.last_pass.saturating_mul(2)).max(1);
-        self.limits.spp.map_or(count, |spp| count.min(spp - self.spp))
+        let count = self.limits.spp.map_or(count, |spp| count.min(spp - self.spp));
+        count.min(self.until_raise())
+    }
+
+    /// Samples until the majorants may be raised: after 1, 2, 4, 8, … of every pixel, so that what is traced with which
+    /// majorants does not depend on time.
+    fn until_raise(&self) -> u32 {
+        if !self.probe.scene.medium.is_progressive() {
+            return u32::MAX;
+        }
+        self.spp.saturating_add(1).checked_next_power_of_two().map_or(u32::MAX, |next| next - self.spp)
+    }
+
+    /// Raises the majorants if it is time, and there is something to raise.
+    pub fn raise_majorants(&mut self) -> bool {
+        self.spp.is_power_of_two() && self.probe.raise_majorants(u64::from(self.spp))
     }
 
     pub fn snapshot(&mut self) -> Snapshot {

@@ -3,6 +3,7 @@
 use super::active::Active;
 use super::keeper::Keeper;
 use super::mailbox::{Command, Mailbox};
+use super::pass::Work;
 use super::turns::Turns;
 use super::{Job, Probe, Role, Status, ViewId, preview};
 use crate::estimator::{self, Settings};
@@ -97,7 +98,12 @@ impl Coordinator<'_> {
             catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK, most).then(|| view.snapshot())));
         self.turns.note(view.role, view.cpu_seconds - before, contenders);
         match pass {
-            Ok(Some(snapshot)) => self.mailbox.publish_snapshot(id, snapshot, view.status()),
+            Ok(Some(snapshot)) => {
+                self.mailbox.publish_snapshot(id, snapshot, view.status());
+                if view.raise_majorants() {
+                    self.mailbox.publish_probe(id, view);
+                }
+            }
             Ok(None) => {
                 self.views.remove(&id);
                 self.cancelled.insert(id);
@@ -148,7 +154,7 @@ impl Coordinator<'_> {
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
         let current = self.mailbox.current(id);
-        let probe = Probe { scene, kernel: entry.kernel, settings };
+        let probe = Probe::new(scene, entry.kernel, settings).aside();
         let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
         (view.role, view.target) = (job.role, self.keeper.target(doc));
         view.paused = self.paused.contains(&id);
@@ -157,11 +163,13 @@ impl Coordinator<'_> {
 
     /// Publishes a coarse picture at once, and a finer one if the first whole pass is still far off.
     fn show_preview(&self, id: ViewId, view: &Active) {
+        let probe = view.probe.aside();
+        let work = Work { probe: &probe, ..view.work() };
         let blocks = view.film.pixels.len().div_ceil(COARSE_PATHS);
         let mut stride = blocks.isqrt().max(4).next_power_of_two();
         loop {
             let began = Instant::now();
-            let image = view.pool.install(|| preview::render(&view.work(), stride));
+            let image = view.pool.install(|| preview::render(&work, stride));
             let Some(image) = image else { return };
             let standard_error = vec![[f32::INFINITY; 3]; image.len()];
             let images = Images { mean: image, standard_error, noise: Vec::new() };
@@ -211,7 +219,7 @@ mod tests {
         let pool = keeper.pool(Some(2)).unwrap();
         let settings = Settings::new(&doc.estimator, 0);
         let current = mailbox.current(id);
-        let probe = Probe { scene, kernel, settings };
+        let probe = Probe::new(scene, kernel, settings);
         let view = Active::new((generation, current), probe, pool, doc.render.limits());
         let views = BTreeMap::from([(id, view)]);
         let turns = Turns::default();

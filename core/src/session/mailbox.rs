@@ -197,6 +197,11 @@ impl Mailbox {
         });
     }
 
+    /// Publishes what paths are traced with from now on.
+    pub fn publish_probe(&self, view: ViewId, active: &Active) {
+        self.publish(view, active.generation, |p| p.state.probe = Some(active.probe.clone()));
+    }
+
     /// Publishes a picture together with the status that goes with it.
     pub fn publish_snapshot(&self, view: ViewId, snapshot: Snapshot, status: Status) {
         self.publish(view, snapshot.generation, |p| {

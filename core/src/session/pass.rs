@@ -128,7 +128,7 @@ mod tests {
         (doc.film.width, doc.film.height) = (7, 11);
         let scene = build(&doc, &mut Library::default()).unwrap();
         let settings = Settings::new(&doc.estimator, 3);
-        let probe = Probe { scene: Arc::new(scene), kernel, settings };
+        let probe = Probe::new(Arc::new(scene), kernel, settings);
         let work = Work { probe: &probe, wanted: Wanted::ALWAYS };
         let mut film = Film::new(7, 11);
         let mut tally = Tally::default();

@@ -11,6 +11,8 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub struct Probe {
     pub(super) scene: Arc<Scene>,
+    /// Scenes of earlier samples, whose majorants were lower, with the sample that each ends before.
+    pub(super) before: Vec<(u64, Arc<Scene>)>,
     pub(super) kernel: Kernel,
     pub(super) settings: Settings,
 }
@@ -34,7 +36,22 @@ impl Probe {
     /// Paths of a scene by an estimator's kernel.
     #[must_use]
     pub fn new(scene: Arc<Scene>, kernel: Kernel, settings: Settings) -> Self {
-        Self { scene, kernel, settings }
+        Self { scene, before: Vec::new(), kernel, settings }
+    }
+
+    /// The same, for paths of which nothing is to be learnt about the majorant.
+    pub(super) fn aside(&self) -> Self {
+        let scene = &self.scene;
+        let scene = if scene.medium.is_watched() { Arc::new(scene.unwatched()) } else { Arc::clone(scene) };
+        Self { scene, ..self.clone() }
+    }
+
+    /// Raises the majorants, where they were found to be exceeded, for all samples from `sample` on; false if there
+    /// is nothing to raise.
+    pub(super) fn raise_majorants(&mut self, sample: u64) -> bool {
+        let Some(raised) = self.scene.raised() else { return false };
+        self.before.push((sample, std::mem::replace(&mut self.scene, Arc::new(raised))));
+        true
     }
 
     /// The scene that paths are traced in.
@@ -45,7 +62,9 @@ impl Probe {
 
     /// The path of sample number `sample` of a pixel, exactly as the film has received it.
     pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
-        (self.kernel)(&self.scene, &self.settings, PathIndex { x, y, sample }, wanted)
+        let earlier = self.before.iter().find(|(end, _)| sample < *end);
+        let scene = earlier.map_or(&self.scene, |(_, scene)| scene);
+        (self.kernel)(scene, &self.settings, PathIndex { x, y, sample }, wanted)
     }
 
     /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not

@@ -90,7 +90,7 @@ mod tests {
         (doc.film.width, doc.film.height) = (1, 1);
         let scene = Arc::new(build(&doc, &mut Library::default()).unwrap());
         let kernel = find("nee").unwrap().kernel;
-        let probe = Probe { scene, kernel, settings: Settings::new(&doc.estimator, 0) };
+        let probe = Probe::new(scene, kernel, Settings::new(&doc.estimator, 0));
         let pool = Arc::new(rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap());
         let mut view = Active::new((1, Arc::new(AtomicU64::new(1))), probe, pool, Limits::default());
         view.role = role;

@@ -146,6 +146,7 @@ impl<const N: usize> Analytic<N> {
                 t1: b * self.length,
                 majorant: of(&|shape| shape.range(a, b).1) * self.majorant_factor,
                 clamp_null: false,
+                watched: false,
             },
             minorant: of(&|shape| shape.range(a, b).0),
             mean: of(&mean),

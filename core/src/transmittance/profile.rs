@@ -18,7 +18,13 @@ pub struct Piece<const N: usize> {
 impl<const N: usize> Piece<N> {
     /// A stretch of no length.
     pub const EMPTY: Self = Self {
-        segment: MajorantSegment { t0: 0.0, t1: 0.0, majorant: Sampled::ZERO, clamp_null: false },
+        segment: MajorantSegment {
+            t0: 0.0,
+            t1: 0.0,
+            majorant: Sampled::ZERO,
+            clamp_null: false,
+            watched: false,
+        },
         minorant: Sampled::ZERO,
         mean: Sampled::ZERO,
     };

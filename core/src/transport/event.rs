@@ -97,8 +97,13 @@ impl<const N: usize> Collision<N> {
         absorption: Absorption,
     ) -> Self {
         let scattering = control * albedo;
-        let part =
-            Coefficients { absorption: control - scattering, scattering, null: Sampled::ZERO, majorant };
+        let part = Coefficients {
+            absorption: control - scattering,
+            scattering,
+            null: Sampled::ZERO,
+            majorant,
+            excess: 1.0,
+        };
         Self::with_part(point, part, control, true, absorption)
     }
 

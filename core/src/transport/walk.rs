@@ -5,7 +5,7 @@
 
 use super::{Collision, EventRule, Trace, WalkWeights};
 use crate::math::{BoxRay, Ray};
-use crate::medium::{LocalMedium, MajorantSegment};
+use crate::medium::{LocalMedium, MajorantSegment, Violations};
 use crate::scene::{DistanceSampling, Scene};
 use crate::spectrum::Sampled;
 use glam::Vec3;
@@ -13,6 +13,7 @@ use glam::Vec3;
 /// A walk along one ray, from tentative collision to tentative collision.
 pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
+    violations: &'m Violations,
     rule: EventRule,
     /// Whether it looks for the path's next vertex, whose random numbers it then may take.
     to_vertex: bool,
@@ -33,7 +34,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     /// Starts at the ray's origin and ends where the ray leaves the medium, at `t_max` at the latest.
     #[must_use]
     #[inline(always)]
-    pub fn new(medium: &'m L, scene: &Scene, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
+    pub fn new(medium: &'m L, scene: &'m Scene, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
         Self::along(medium, scene, ray, t_max, rule.into(), true)
     }
 
@@ -42,13 +43,14 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     #[inline(always)]
     pub fn along(
         medium: &'m L,
-        scene: &Scene,
+        scene: &'m Scene,
         ray: &Ray,
         t_max: f32,
         rule: EventRule,
         to_vertex: bool,
     ) -> Self {
-        let outside = Self { medium, rule, to_vertex, way: None };
+        let violations = &*scene.violations;
+        let outside = Self { medium, violations, rule, to_vertex, way: None };
         let Some((t0, in_medium)) = BoxRay::enter(ray, &scene.medium_from_world, t_max) else {
             return outside;
         };
@@ -57,6 +59,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         let in_world = Ray { origin: ray.at(t0), direction: ray.direction };
         Self {
             medium,
+            violations,
             rule,
             to_vertex,
             way: Some(Way { in_world, in_medium, segments, segment, t: segment.t0 }),
@@ -94,7 +97,10 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                     trace.lookups += 1;
                     Collision::new(point, self.medium.coefficients(inside, segment), self.rule)
                 };
-                trace.exceeded += u64::from(!collision.bounds);
+                if collision.coefficients.excess > 1.0 {
+                    trace.exceeded += 1;
+                    self.violations.note(inside, collision.coefficients.excess);
+                }
                 return Some(collision);
             }
             optical_depth -= in_segment;

@@ -61,7 +61,7 @@ impl<const N: usize> Place<N> {
 
     pub fn collision(&self, absorption: Absorption) -> Collision<N> {
         let majorant = Sampled(self.majorant);
-        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
+        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };
         let coefficients = Coefficients::new(Sampled(self.extinction), Sampled(self.albedo), &segment);
         Collision::new(Vec3::ZERO, coefficients, absorption.into())
     }

@@ -234,7 +234,7 @@ fn a_hundred_thousand_events_stay_finite() {
     for (hero, factor) in (0..4).flat_map(|hero| [1.0, 1.7].map(|factor| (hero, factor))) {
         let extinction = Sampled::<4>(std::array::from_fn(|i| EXTINCTION[(hero + i) % 4]));
         let majorant = extinction * factor;
-        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false };
+        let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };
         let coefficients = Coefficients::new(extinction, Sampled::ONE, &segment);
         let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
         let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
@@ -269,7 +269,8 @@ fn a_hundred_thousand_events_stay_finite() {
 #[test]
 fn products_apart_overflow_where_quotients_do_not() {
     let extinction = Sampled([400.0f32, 300.0, 200.0, 100.0]);
-    let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false };
+    let segment =
+        MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false, watched: false };
     let coefficients = Coefficients::new(extinction, Sampled::splat(0.99), &segment);
     let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
     let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };

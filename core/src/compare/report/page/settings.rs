@@ -61,6 +61,7 @@ fn majorant(doc: &MajorantDoc) -> String {
         text += match doc.when_exceeded {
             WhenExceeded::Clamp => ", clamped",
             WhenExceeded::Weighted => ", weighted where exceeded",
+            WhenExceeded::Progressive => ", raised where exceeded",
         };
     }
     text

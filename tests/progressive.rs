@@ -1,0 +1,98 @@
+//! Majorants that are raised where they are found to be exceeded: the same picture whatever the time it takes, and an
+//! error that vanishes.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use majorant_core::film::Snapshot;
+use majorant_core::scene::{DensityDoc, Limits, SceneDoc, WhenExceeded};
+use majorant_core::session::ViewId;
+use majorant_core::spectrum::SpectrumDoc;
+use majorant_core::transport::Wanted;
+use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
+
+const VIEW: ViewId = ViewId(0);
+
+/// A scene whose majorants start at a tenth of what would bound.
+fn doc(threads: usize, spp: u32, when_exceeded: WhenExceeded) -> SceneDoc {
+    let mut doc = small_doc(threads, spp);
+    doc.medium.majorant.factor = 0.1;
+    doc.medium.majorant.resolution = Some(8);
+    doc.medium.majorant.when_exceeded = when_exceeded;
+    doc
+}
+
+/// Mean over the middle of the picture, which the medium fills.
+fn brightness(snapshot: &Snapshot) -> f64 {
+    let pixels = (12..25).flat_map(|y| (24..37).map(move |x| y * 61 + x));
+    let sum: f64 = pixels.map(|i| snapshot.mean[i].iter().map(|v| f64::from(*v)).sum::<f64>()).sum();
+    sum / (3 * 13 * 13) as f64
+}
+
+#[test]
+fn neither_threads_nor_pieces_nor_previews_matter() {
+    let whole = finished(&doc(1, 11, WhenExceeded::Progressive));
+    for threads in [2, 3] {
+        assert_same(&whole, &finished(&doc(threads, 11, WhenExceeded::Progressive)));
+    }
+    for pieces in [&[1, 11][..], &[3, 4, 11], &[2, 5, 8, 9, 11]] {
+        let session = Watched::new();
+        session.submit(VIEW, job(&doc(2, pieces[0], WhenExceeded::Progressive), true));
+        for spp in pieces {
+            session.set_limits(VIEW, Limits::samples(*spp));
+            session.wait_picture(VIEW, |_, s| s.spp == *spp);
+        }
+        assert_same(&whole, &session.wait_finished(VIEW));
+    }
+}
+
+#[test]
+fn the_error_vanishes_where_that_of_clamping_stays() {
+    // What is cut off absorbs less.
+    let absorbing = |mut doc: SceneDoc| {
+        doc.medium.albedo = SpectrumDoc::Constant(0.2);
+        brightness(&finished(&doc))
+    };
+    let truth = absorbing(small_doc(2, 256));
+    let of = |spp, when_exceeded| absorbing(doc(2, spp, when_exceeded));
+    let error = |spp, when_exceeded| of(spp, when_exceeded) / truth - 1.0;
+    let clamped = error(256, WhenExceeded::Clamp);
+    let raised = error(256, WhenExceeded::Progressive);
+    assert!(clamped.abs() > 0.05 && raised.abs() < 0.2 * clamped.abs(), "{clamped} {raised}");
+    // What is left comes from the first samples: those after the sixteenth are as good as any.
+    let [first, all] = [16, 256].map(|spp| f64::from(spp) * of(spp, WhenExceeded::Progressive));
+    let later = (all - first) / 240.0 / truth - 1.0;
+    assert!(later.abs() < 0.01, "{later}");
+}
+
+#[test]
+fn a_homogeneous_medium_is_found_out_by_the_first_sample() {
+    let mut doc = doc(2, 64, WhenExceeded::Progressive);
+    doc.medium.density = DensityDoc::Uniform {};
+    // A shared majorant is that of one wavelength, which has to be met first.
+    doc.medium.majorant.shared = false;
+    let mut bounded = doc.clone();
+    bounded.medium.majorant.factor = 1.0;
+    let session = Watched::new();
+    session.submit(VIEW, job(&doc, false));
+    let raised = session.wait_finished(VIEW);
+    let probe = session.state(VIEW).probe.unwrap();
+    assert_eq!(probe.scene().violations.exceeded_cells(), 0);
+    // One sample of 64 is clamped.
+    let error = brightness(&raised) / brightness(&finished(&bounded)) - 1.0;
+    assert!(error.abs() < 0.02, "{error}");
+}
+
+#[test]
+fn a_probe_traces_every_sample_with_the_majorants_of_its_time() {
+    let session = Watched::new();
+    session.submit(VIEW, job(&doc(2, 21, WhenExceeded::Progressive), true));
+    let snapshot = session.wait_finished(VIEW);
+    let probe = session.state(VIEW).probe.unwrap();
+    for (x, y) in [(30, 18), (25, 12), (35, 20), (31, 9)] {
+        let samples = probe.samples((x, y), 0..21, Wanted::ALWAYS);
+        for c in 0..3 {
+            let mean = samples.iter().map(|s| f64::from(s.rgb[c])).sum::<f64>() / 21.0;
+            let shown = f64::from(snapshot.mean[(y * 61 + x) as usize][c]);
+            assert!((mean - shown).abs() <= 1e-5 * shown.abs().max(1e-3), "{x} {y}: {mean} {shown}");
+        }
+    }
+}
