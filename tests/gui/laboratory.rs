@@ -8,7 +8,8 @@ use majorant_core::bench::FACTORS;
 use majorant_core::estimator::{Axis, REGISTRY};
 use majorant_core::light::LightSelection;
 use majorant_core::scene::{
-    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristic, LightSampling, SceneDoc,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristic, LightSampling, LightWalk,
+    SceneDoc,
 };
 
 #[test]
@@ -19,6 +20,7 @@ fn every_axis_is_chosen_by_name() {
     click(&mut lab, Role::Button, "Absorption: Roulette");
     click(&mut lab, Role::Button, "Lights: Power");
     click(&mut lab, Role::Button, "Aim: Product");
+    click(&mut lab, Role::Button, "Light walk: Separate");
     click(&mut lab, Role::Button, "Directions: Product");
     open(&mut lab, "Combination");
     click(&mut lab, Role::Button, "Heroes: Power");
@@ -30,6 +32,7 @@ fn every_axis_is_chosen_by_name() {
         (DistanceSampling::Decomposition, Absorption::Roulette, LightSelection::Power)
     );
     assert_eq!((e.heuristics.components, e.heuristics.techniques), (Heuristic::Power, Heuristic::Maximum));
+    assert_eq!(e.light_walk, LightWalk::Separate);
     assert_eq!((e.light_sampling, e.directions), (LightSampling::Product, DirectionSampling::Product));
     assert_eq!(e.bookkeeping, Bookkeeping::ApartF64);
     let generation = lab.state().state().generation;
@@ -44,7 +47,11 @@ fn a_choice_that_an_estimator_does_not_have_is_greyed_out() {
     open(&mut lab, "Estimator");
     for entry in REGISTRY {
         click(&mut lab, Role::RadioButton, entry.name);
-        for (axis, label) in [(Axis::Distances, "Distances: Split"), (Axis::Lights, "Lights: Power")] {
+        for (axis, label) in [
+            (Axis::Distances, "Distances: Split"),
+            (Axis::Lights, "Lights: Power"),
+            (Axis::LightWalk, "Light walk: Separate"),
+        ] {
             let node = lab.get_by_role_and_label(Role::Button, label);
             assert_eq!(
                 node.accesskit_node().is_disabled(),

@@ -212,7 +212,12 @@ pub(super) fn against(standing: &Standing) -> String {
             probability(a.p)
         )
     });
-    format!("{with}.{found}{bias}")
+    let spread = if standing.evenly_spread {
+        "\nIts samples are spread evenly: error bars overstate its errors, so that a small bias may go unseen."
+    } else {
+        ""
+    };
+    format!("{with}.{found}{bias}{spread}")
 }
 
 /// A view's letter on its colour.

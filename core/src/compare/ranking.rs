@@ -5,6 +5,7 @@ use super::estimate::{Estimate, RegionNoise};
 use super::reference::Reference;
 use crate::estimator;
 use crate::film::Snapshot;
+use crate::math::SamplerKind;
 use crate::measure::{self, Measure, Measured, Region};
 use crate::scene::SceneDoc;
 use std::borrow::Cow;
@@ -106,6 +107,9 @@ pub struct Standing {
     pub agreement: Option<Agreement>,
     /// Why it is biased by its own document, if it is.
     pub declared_bias: Option<&'static str>,
+    /// Whether its samples are spread evenly over a pixel: the errors of its means are then smaller than their scatter
+    /// says, and so are the differences that a verdict could have found.
+    pub evenly_spread: bool,
     /// Pixels in the region, and how many of them have no value.
     pub pixels: u64,
     /// Pixels without a finite value.
@@ -218,6 +222,7 @@ fn standing(
         against: against.clone(),
         agreement,
         declared_bias: view.declared_bias(),
+        evenly_spread: view.doc.estimator.sampler != SamplerKind::Independent,
         pixels,
         excluded: pixels - noise.pixels,
     })

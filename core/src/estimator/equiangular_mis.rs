@@ -12,8 +12,8 @@
 //! Kulla and Fajardo 2012, section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
 
 use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, RESCALED, Settings, clamped_majorant,
-    dispatch,
+    Axis, Entry, Estimator, HERO_DRAWS, ONE_WALK, PathEstimate, PathIndex, RESCALED, Settings,
+    clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -30,6 +30,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "Uni+NEE MIS and distances drawn towards the light; wins for lamps in thin media.",
     reference: "Kulla & Fajardo 2012, section 4; Miller, Georgiev & Jarosz 2019, section 5.2",
     unused: &[
+        ONE_WALK,
         HERO_DRAWS,
         RESCALED,
         (Axis::Distances, "a vertex that is drawn by angle lies in the whole medium, not in a part of it"),

@@ -15,7 +15,7 @@
 //! Horešovský's report, algorithms 1–3, appendix A.
 
 use super::{
-    Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, biased_transmittance,
+    Axis, Entry, Estimator, Kernel, ONE_WALK, PathEstimate, PathIndex, Settings, biased_transmittance,
     clamped_majorant, dispatch,
 };
 use crate::math::Ray;
@@ -30,6 +30,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "The report's older baseline: MIS per bounce, one component at a time in chromatic grids.",
     reference: "Horešovský's report, algorithms 1–3; Nimier-David et al. 2019",
     unused: &[
+        ONE_WALK,
         (Axis::Absorption, "its scattering is weighted by μs / μt"),
         (Axis::Distances, "it tracks by delta in grids, and by the average extinction elsewhere"),
         (Axis::Books, "it keeps throughput over density only"),

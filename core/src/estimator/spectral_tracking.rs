@@ -13,7 +13,8 @@
 //! heterogeneous volumes", section 5.1, algorithm 4.
 
 use super::{
-    Axis, Entry, Estimator, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, clamped_majorant, dispatch,
+    Axis, Entry, Estimator, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK, clamped_majorant,
+    dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -27,6 +28,7 @@ pub(super) const ENTRY: Entry = Entry {
     summary: "All components share each unidirectional path by event probabilities instead of MIS.",
     reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
     unused: &[
+        ONE_WALK,
         (Axis::Distances, "its events are drawn for all components at once"),
         (Axis::Books, "it has no densities to keep"),
         (Axis::Components, "it forms no densities that could be combined"),

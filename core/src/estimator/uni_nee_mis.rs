@@ -16,10 +16,10 @@ use super::{
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::scene::{Bookkeeping, Scene};
+use crate::scene::{Bookkeeping, LightWalk, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, WalkWeights, Wanted, Weights, World,
+    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, WalkWeights, Wanted, Weights, World,
 };
 use std::marker::PhantomData;
 
@@ -62,7 +62,7 @@ impl<B: Books> Estimator for UniNeeMis<B> {
         let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
         let mut path = B::Weights::<N>::CAMERA;
-        let mut last = None;
+        let mut last: Option<Vertex> = None;
         let mut vertices = 0;
         loop {
             // Fly until something real happens; the weights follow every null collision.
@@ -87,14 +87,8 @@ impl<B: Books> Estimator for UniNeeMis<B> {
                 world.scattering_vertex(point, &ray)
             } else {
                 // The walk has met light. Before the first real vertex only it could have.
-                for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += match &last {
-                        None => path.unidirectional(light.radiance, heuristics),
-                        Some(vertex) => {
-                            let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
-                            path.combined(light.radiance, nee, heuristics)
-                        }
-                    };
+                if last.is_none() || world.settings.light_walk == LightWalk::Fused {
+                    radiance += world.met(last.as_ref(), &ray, &surface, &path);
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
                     return radiance;
@@ -114,7 +108,29 @@ impl<B: Books> Estimator for UniNeeMis<B> {
                 return radiance;
             }
             ray = world.leave(&vertex, &mut path, trace);
+            if world.settings.light_walk == LightWalk::Separate {
+                radiance += by_separate_walk(world, &vertex, &ray, path, trace);
+            }
             last = Some(vertex);
         }
     }
+}
+
+/// What a walk of its own along a ray meets, if nothing real happens on its way.
+fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    vertex: &Vertex,
+    ray: &Ray,
+    mut path: W,
+    trace: &mut Trace<'_>,
+) -> C::Radiance {
+    let surface = world.nearest_surface(ray, false);
+    let mut walk = world.walk_to_light(ray, surface.t());
+    while let Some(collision) = walk.next_collision(trace, &mut path) {
+        match collision.draw_event(trace) {
+            Event::Null => path.null(&collision),
+            Event::Absorption | Event::Scattering => return C::Radiance::BLACK,
+        }
+    }
+    world.met(Some(vertex), ray, &surface, &path)
 }

@@ -7,8 +7,8 @@ use super::{Collision, Trace, Turn, Vertex, WalkWeights, Weights, World};
 use crate::light::{Emitter, LobeParts};
 use crate::math::{BoxRay, Ray};
 use crate::medium::LocalMedium;
-use crate::scene::LightSampling;
-use crate::spectrum::{Components, Sampled};
+use crate::scene::{LightSampling, NearestSurface};
+use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transmittance::InMedium;
 use glam::{Vec2, Vec3};
 
@@ -129,6 +129,31 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             radiance: light.radiance(sample.direction, &self.components),
             light: index,
         })
+    }
+
+    /// Light that a walk has met at the end of a ray, shared with the connections of the vertex that it left. Light that
+    /// the camera sees could only be met.
+    #[must_use]
+    #[inline]
+    pub fn met<W: Weights<N>>(
+        &self,
+        last: Option<&Vertex>,
+        ray: &Ray,
+        end: &NearestSurface<'_>,
+        path: &W,
+    ) -> C::Radiance {
+        let heuristics = self.settings.heuristics;
+        let mut radiance = C::Radiance::BLACK;
+        for light in self.arrivals(ray, end, last.is_none()) {
+            radiance += match last {
+                None => path.unidirectional(light.radiance, heuristics),
+                Some(vertex) => {
+                    let nee = self.aim_density(vertex, light.index, ray.direction, end.t());
+                    path.combined(light.radiance, nee, heuristics)
+                }
+            };
+        }
+        radiance
     }
 
     /// The density with which [`Self::aim`] draws a direction at a vertex that reaches a light after `distance`; per

@@ -6,7 +6,7 @@ use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristics, LightSampling, LightSelection,
-    NearestSurface, Scene, Tracking,
+    LightWalk, NearestSurface, Scene, Tracking,
 };
 use crate::spectrum::{Components, Sampled};
 use crate::surface::Role;
@@ -26,6 +26,8 @@ pub struct PathSettings {
     pub bookkeeping: Bookkeeping,
     /// How spectral tracking draws events.
     pub tracking: Tracking,
+    /// Which walk meets the light that unidirectional sampling adds.
+    pub light_walk: LightWalk,
     /// Which light a connection goes to.
     pub lights: LightSelection,
     /// How a connection draws a direction towards its light.

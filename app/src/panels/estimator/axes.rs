@@ -6,7 +6,7 @@ use majorant_core::estimator::{self, Axis};
 use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
-    LightSampling, LightSelection, Mode, Tracking,
+    LightSampling, LightSelection, LightWalk, Mode, Tracking,
 };
 use majorant_core::spectrum::WavelengthSampling;
 use majorant_core::transmittance::TransmittanceKind;
@@ -19,6 +19,7 @@ pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     open_ui(ui, doc, Axis::Distances, distances_ui);
     open_ui(ui, doc, Axis::Lights, lights_ui);
     open_ui(ui, doc, Axis::Transmittance, transmittance_ui);
+    open_ui(ui, doc, Axis::LightWalk, light_walk_ui);
     combination_ui(ui, doc);
     path_length_ui(ui, doc, opened);
 }
@@ -120,6 +121,16 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
             ),
         ];
         segmented(ui, "Aim", &mut doc.light_sampling, &options);
+    });
+}
+
+fn light_walk_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+    row(ui, "Light walk", "Which walk meets the light that unidirectional sampling adds", |ui, _| {
+        let options = [
+            (LightWalk::Fused, "Fused", "The one that goes on to the next vertex"),
+            (LightWalk::Separate, "Separate", "One of its own along the same ray, as the report prints it"),
+        ];
+        segmented(ui, "Light walk", &mut doc.light_walk, &options);
     });
 }
 

@@ -13,7 +13,7 @@ use crate::light::Panorama;
 use crate::math::SamplerKind;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EmissionDoc, GridRef, Heuristic,
-    Heuristics, LightSampling, LightSelection, Mode, Tracking,
+    Heuristics, LightSampling, LightSelection, LightWalk, Mode, Tracking,
 };
 use crate::spectrum::WavelengthSampling;
 
@@ -186,6 +186,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .among(&REGISTRY[..4]),
         plume.varied("agreement/plume-analogue-rgb", |d| {
             d.estimator.absorption = Absorption::Analogue;
+            d.estimator.light_walk = LightWalk::Separate;
             d.estimator.mode = Mode::Rgb;
         }),
         plume.varied("agreement/plume-uniform-guided", |d| {

@@ -29,6 +29,8 @@ pub struct EstimatorDoc {
     pub bookkeeping: Bookkeeping,
     /// How spectral tracking draws events.
     pub tracking: Tracking,
+    /// Which walk meets the light that unidirectional sampling adds, where it shares paths with connections.
+    pub light_walk: LightWalk,
     /// Which light a connection goes to.
     pub lights: LightSelection,
     /// How a connection draws a direction towards its light.
@@ -60,6 +62,7 @@ impl Default for EstimatorDoc {
             heuristics: Heuristics::default(),
             bookkeeping: Bookkeeping::Rescaled,
             tracking: Tracking::History,
+            light_walk: LightWalk::Fused,
             lights: LightSelection::Uniform,
             light_sampling: LightSampling::Emitter,
             transmittance: "ratio-hero".into(),
@@ -140,6 +143,18 @@ pub enum DirectionSampling {
     /// A mixture of the phase function and of its part that can meet the lights: wins where lights are large or in view,
     /// and scattering is sharply forward.
     Product,
+}
+
+/// Which walk meets the light that unidirectional sampling adds, in Uni+NEE MIS.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightWalk {
+    /// The one that goes on to the next vertex, if it meets no other.
+    #[default]
+    Fused,
+    /// One of its own along the same ray, before that is walked again for the next vertex (the report's algorithm 4,
+    /// line 17): the same mean, more look-ups.
+    Separate,
 }
 
 /// How a connection draws a direction towards its light.

@@ -23,7 +23,7 @@ pub use compare::{
 };
 pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
-    LightSampling, Mode, Tracking,
+    LightSampling, LightWalk, Mode, Tracking,
 };
 pub use light::LightDoc;
 pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc};

@@ -3,8 +3,9 @@
 use crate::compare::Standing;
 use crate::compare::report::gather::{Gathered, Shown};
 use crate::compare::report::{reproduce, words};
-use crate::scene::{Absorption, MajorantDoc, Mode, WhenExceeded};
+use crate::scene::{Absorption, EstimatorDoc, MajorantDoc, Mode, WhenExceeded};
 use serde::Serialize;
+use serde_json::Value;
 
 /// What a view is made with.
 #[derive(Serialize)]
@@ -13,6 +14,7 @@ pub(super) struct Setting {
     name: String,
     mode: &'static str,
     absorption: &'static str,
+    choices: String,
     depth: String,
     roulette: String,
     majorant: String,
@@ -42,6 +44,7 @@ fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) 
             Absorption::Weighted => "weighted",
             Absorption::Roulette => "roulette",
         },
+        choices: choices(estimator),
         depth: estimator.max_depth.map_or_else(|| "unlimited".into(), |d| d.to_string()),
         roulette: estimator.roulette_depth.map_or_else(|| "never".into(), |d| format!("after {d}")),
         majorant: majorant(&doc.medium.majorant),
@@ -50,6 +53,24 @@ fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) 
         against: words::against(&standing.against),
         command: reproduce::command(shown, &gathered.experiment.doc),
     }
+}
+
+/// Every other choice that is not the usual one, as scene files have it.
+fn choices(estimator: &EstimatorDoc) -> String {
+    const SHOWN: [&str; 5] = ["id", "mode", "absorption", "max_depth", "roulette_depth"];
+    let (Ok(Value::Object(chosen)), Ok(usual)) =
+        (serde_json::to_value(estimator), serde_json::to_value(EstimatorDoc::default()))
+    else {
+        return String::new();
+    };
+    let differ =
+        chosen.iter().filter(|(key, value)| !SHOWN.contains(&key.as_str()) && usual[key.as_str()] != **value);
+    let words = differ.map(|(key, value)| match value {
+        Value::String(word) => format!("{key}: {word}"),
+        other => format!("{key}: {other}"),
+    });
+    let words: Vec<_> = words.collect();
+    if words.is_empty() { "as usual".into() } else { words.join(", ").replace('"', "") }
 }
 
 fn majorant(doc: &MajorantDoc) -> String {
