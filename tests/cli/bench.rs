@@ -12,7 +12,10 @@ fn rows(arguments: &[&str]) -> Vec<Value> {
 
 #[test]
 fn bench_measures_every_estimator_against_the_reference_beside_the_scene() {
-    let rows = rows(&["bench", S3, "--spp", "8", "--repeats", "3", "--threads", "2", "--json"]);
+    // Directions as in the papers: by their product, connections would do well here.
+    let plain = ["--set", "estimator.light_sampling=emitter", "estimator.directions=phase"];
+    let common = ["bench", S3, "--spp", "8", "--repeats", "3", "--threads", "2", "--json"];
+    let rows = rows(&[&common[..], &plain].concat());
     assert_eq!(rows.len(), majorant_core::estimator::REGISTRY.len());
     let mean = |row: &Value, key: &str| row[key]["mean"].as_f64().unwrap();
     for row in &rows {
