@@ -69,7 +69,8 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     open(&mut lab, "Majorant");
     open(&mut lab, "Cost and truth by factor");
     click(&mut lab, Role::Button, "Measure");
-    wait(&mut lab, "the curve", |app| !app.factor_curve().is_running());
+    let scene = doc(&lab).clone();
+    wait(&mut lab, "the curve", |app| !app.factor_curve().is_running() && app.factor_curve().is_of(&scene));
     let curve = lab.state().factor_curve();
     assert_eq!((curve.points().len(), curve.error()), (FACTORS.len(), None));
     assert!(curve.is_of(doc(&lab)));
@@ -81,7 +82,10 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     lab.state_mut().request(Command::Edit(Box::new(black)));
     lab.run_steps(2);
     click(&mut lab, Role::Button, "Measure");
-    wait(&mut lab, "the curve of nothing", |app| !app.factor_curve().is_running());
+    let scene = doc(&lab).clone();
+    wait(&mut lab, "the curve of nothing", |app| {
+        !app.factor_curve().is_running() && app.factor_curve().is_of(&scene)
+    });
     lab.run_steps(2);
     assert!(lab.state().factor_curve().is_of(doc(&lab)));
     assert!(lab.query_by_label_contains("Nothing to compare").is_some());
