@@ -41,11 +41,14 @@ pub fn lab_on(source: Source) -> Lab {
     lab
 }
 
+/// So long that only what hangs is called late, even where many tests share two slow cores.
+const PATIENCE: Duration = Duration::from_secs(120);
+
 /// Steps until something is true; the session works on threads of its own.
 pub fn wait(lab: &mut Lab, what: &str, done: impl Fn(&LabApp) -> bool) {
-    let deadline = Instant::now() + Duration::from_secs(20);
+    let deadline = Instant::now() + PATIENCE;
     while !done(lab.state()) {
-        assert!(Instant::now() < deadline, "{what} did not happen; state: {:?}", lab.state().state());
+        assert!(Instant::now() < deadline, "{what} did not happen; {:?}", lab.state().state().status);
         std::thread::sleep(Duration::from_millis(5));
         lab.step();
     }

@@ -11,6 +11,7 @@ use majorant_core::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristic, LightSampling, LightWalk,
     SceneDoc,
 };
+use majorant_core::session::Status;
 
 #[test]
 fn every_axis_is_chosen_by_name() {
@@ -68,9 +69,16 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     let (mut lab, _directory) = lab();
     open(&mut lab, "Majorant");
     open(&mut lab, "Cost and truth by factor");
+    // Thin, so that its many paths are short.
+    let mut thin = doc(&lab).clone();
+    thin.medium.scale = 0.02;
+    lab.state_mut().request(Command::Edit(Box::new(thin)));
+    wait(&mut lab, "the thin scene", |app| app.state().status == Status::Finished);
+    lab.run_steps(12);
     click(&mut lab, Role::Button, "Measure");
     let scene = doc(&lab).clone();
-    wait(&mut lab, "the curve", |app| !app.factor_curve().is_running() && app.factor_curve().is_of(&scene));
+    assert!(lab.state().factor_curve().is_of(&scene), "the button was missed");
+    wait(&mut lab, "the curve", |app| !app.factor_curve().is_running());
     let curve = lab.state().factor_curve();
     assert_eq!((curve.points().len(), curve.error()), (FACTORS.len(), None));
     assert!(curve.is_of(doc(&lab)));
@@ -80,12 +88,13 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     // A black picture has no relative noise; that is said instead of drawn.
     let black = SceneDoc { lights: Vec::new(), ..doc(&lab).clone() };
     lab.state_mut().request(Command::Edit(Box::new(black)));
-    lab.run_steps(2);
+    // What is said of it moves the panels; a button that moves is missed.
+    wait(&mut lab, "the notice", |app| !app.state().notices.is_empty());
+    lab.run_steps(12);
     click(&mut lab, Role::Button, "Measure");
     let scene = doc(&lab).clone();
-    wait(&mut lab, "the curve of nothing", |app| {
-        !app.factor_curve().is_running() && app.factor_curve().is_of(&scene)
-    });
+    assert!(lab.state().factor_curve().is_of(&scene), "the button was missed");
+    wait(&mut lab, "the curve of nothing", |app| !app.factor_curve().is_running());
     lab.run_steps(2);
     assert!(lab.state().factor_curve().is_of(doc(&lab)));
     assert!(lab.query_by_label_contains("Nothing to compare").is_some());

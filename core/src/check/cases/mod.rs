@@ -41,6 +41,12 @@ static CONNECTING_AND_ONE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|e| e.id == "spectral-mis").chain(CONNECTING.iter()).copied().collect()
 });
 
+/// Those whose paths fly by the majorant of their hero: where extinctions differ a hundredfold, whoever flies by that of
+/// the densest component takes a hundred times as long to tell the same.
+static BY_HERO: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+    REGISTRY.iter().filter(|entry| entry.unused(Axis::Tracking).is_some()).copied().collect()
+});
+
 /// The cases of a usual look, or of a thorough one.
 ///
 /// # Errors
