@@ -138,8 +138,8 @@ impl Active {
     pub fn with_images(&self, images: Images, coarse: Option<u32>) -> Snapshot {
         Snapshot {
             generation: self.generation,
-            width: self.film.width,
-            height: self.film.height,
+            width: self.probe.scene.width as usize,
+            height: self.probe.scene.height as usize,
             mean: images.mean,
             standard_error: images.standard_error,
             noise: images.noise,
@@ -154,7 +154,7 @@ impl Active {
         }
     }
 
-    /// A view that has not rendered yet.
+    /// A view that has not rendered yet, and has no film yet.
     pub fn new(
         (generation, current): (u64, Arc<AtomicU64>),
         probe: Probe,
@@ -164,7 +164,7 @@ impl Active {
         Self {
             generation,
             current,
-            film: Film::new(probe.scene.width as usize, probe.scene.height as usize),
+            film: Film::new(0, 0),
             probe,
             pool,
             spp: 0,
@@ -182,13 +182,18 @@ impl Active {
         }
     }
 
+    /// Gives it its film, in the memory of another if possible.
+    pub fn load(&mut self, film: Film) {
+        self.film = film.renewed(self.probe.scene.width as usize, self.probe.scene.height as usize);
+    }
+
     /// Runs one pass of at most `most` samples; false if it was cancelled, which leaves the view unusable.
     pub fn advance(&mut self, rows_per_task: NonZeroUsize, most: u32) -> bool {
         let count = self.next_samples().min(most).max(1);
         let began = Instant::now();
         let first = u64::from(self.spp);
         let samples = first..first + u64::from(count);
-        // The film is lent to the pass; a cancelled one is not worth having back.
+        // The film is lent to the pass; of a cancelled one only the memory is worth having back.
         let mut film = std::mem::replace(&mut self.film, Film::new(0, 0));
         let cost = self.pool.install(|| self.work().add_samples(&mut film, &samples, rows_per_task));
         self.film = film;

@@ -7,7 +7,7 @@ use super::pass::Work;
 use super::turns::Turns;
 use super::{Job, Probe, Role, Status, ViewId, preview};
 use crate::estimator::{self, Settings};
-use crate::film::Images;
+use crate::film::{Film, Images};
 use crate::io::Library;
 use crate::transport::Wanted;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +31,7 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
         views: BTreeMap::new(),
         paused: BTreeSet::new(),
         turns: Turns::default(),
-        cancelled: BTreeSet::new(),
+        cancelled: BTreeMap::new(),
     };
     loop {
         let idle = !coordinator.views.values().any(Active::runnable);
@@ -50,8 +50,8 @@ struct Coordinator<'a> {
     /// Views that the user has paused; they stay so through edits and failures.
     paused: BTreeSet<ViewId>,
     turns: Turns,
-    /// Views whose pass was broken off for what comes next.
-    cancelled: BTreeSet<ViewId>,
+    /// Films of views whose pass was broken off for what comes next.
+    cancelled: BTreeMap<ViewId, Film>,
 }
 
 impl Coordinator<'_> {
@@ -105,8 +105,8 @@ impl Coordinator<'_> {
                 }
             }
             Ok(None) => {
-                self.views.remove(&id);
-                self.cancelled.insert(id);
+                let film = self.views.remove(&id).map(|view| view.film);
+                self.cancelled.insert(id, film.unwrap_or(Film::new(0, 0)));
             }
             Err(panic) => {
                 let generation = view.generation;
@@ -121,16 +121,18 @@ impl Coordinator<'_> {
     }
 
     fn start(&mut self, id: ViewId, generation: u64, job: &Job) {
-        if self.cancelled.remove(&id) | self.views.remove(&id).is_some_and(|view| view.runnable()) {
+        let (broken_off, ended) = (self.cancelled.remove(&id), self.views.remove(&id));
+        if broken_off.is_some() || ended.as_ref().is_some_and(Active::runnable) {
             self.mailbox.note_cancelled(id, generation);
         }
+        let film = broken_off.or(ended.map(|view| view.film)).unwrap_or(Film::new(0, 0));
         // Nobody waits for it any more: a closing session must not build all that was asked of it.
         if !Wanted::new(&self.mailbox.current(id), generation).yes() {
             return;
         }
         let built = catch_unwind(AssertUnwindSafe(|| self.activate(id, generation, job)))
             .unwrap_or_else(|panic| Err(internal_error(&*panic)));
-        let view = match built {
+        let mut view = match built {
             Ok(view) => view,
             Err(message) => return self.fail(id, generation, message),
         };
@@ -141,6 +143,8 @@ impl Coordinator<'_> {
                 return self.fail(id, generation, internal_error(&*panic));
             }
         }
+        // Tens of megabytes, for which the first picture does not wait.
+        view.load(film);
         self.views.insert(id, view);
     }
 
@@ -165,7 +169,8 @@ impl Coordinator<'_> {
     fn show_preview(&self, id: ViewId, view: &Active) {
         let probe = view.probe.aside();
         let work = Work { probe: &probe, ..view.work() };
-        let blocks = view.film.pixels.len().div_ceil(COARSE_PATHS);
+        let pixels = view.probe.scene.width as usize * view.probe.scene.height as usize;
+        let blocks = pixels.div_ceil(COARSE_PATHS);
         let mut stride = blocks.isqrt().max(4).next_power_of_two();
         loop {
             let began = Instant::now();
@@ -220,10 +225,11 @@ mod tests {
         let settings = Settings::new(&doc.estimator, 0);
         let current = mailbox.current(id);
         let probe = Probe::new(scene, kernel, settings);
-        let view = Active::new((generation, current), probe, pool, doc.render.limits());
+        let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
+        view.load(Film::new(0, 0));
         let views = BTreeMap::from([(id, view)]);
         let turns = Turns::default();
-        let (paused, cancelled) = (BTreeSet::new(), BTreeSet::new());
+        let (paused, cancelled) = (BTreeSet::new(), BTreeMap::new());
         (Coordinator { mailbox, keeper, views, paused, turns, cancelled }, id)
     }
 
@@ -269,7 +275,7 @@ mod tests {
             views: BTreeMap::new(),
             paused: BTreeSet::new(),
             turns: Turns::default(),
-            cancelled: BTreeSet::new(),
+            cancelled: BTreeMap::new(),
         };
         let superseded = mailbox.submit(id, job.clone());
         let removed = mailbox.submit(id, job.clone());
