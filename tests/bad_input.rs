@@ -128,7 +128,8 @@ fn a_scene_without_light_is_black_and_says_so() {
     for entry in majorant_core::estimator::REGISTRY {
         let settings = majorant_core::estimator::Settings::new(&doc.estimator, 0);
         let rgb =
-            (entry.kernel)(&scene, &settings, PathIndex { x: 480, y: 270, sample: 0 }, Wanted::ALWAYS).rgb;
+            (entry.kernel)(&scene, &settings, PathIndex { x: 480, y: 270, sample: 0 }, Wanted::ALWAYS.into())
+                .rgb;
         assert_eq!(rgb.to_array(), [0.0; 3], "{}", entry.id);
     }
 }

@@ -11,7 +11,7 @@ use majorant_core::check::{self, Case, Check, Effort, Report, Verdict, own_scene
 use majorant_core::estimator::{self, Entry, PathEstimate, PathIndex, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::scene::{Scene, WhenExceeded};
-use majorant_core::transport::Wanted;
+use majorant_core::transport::{Company, Wanted};
 use std::collections::BTreeMap;
 
 fn run(cases: Vec<Case>, effort: Effort) -> Report {
@@ -74,8 +74,8 @@ fn estimators_agree_on_the_embedded_scenes() {
 }
 
 /// An estimator that is 3 % too bright and true otherwise.
-fn bright(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
-    let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, wanted);
+fn bright(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
+    let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, company);
     PathEstimate { rgb: truth.rgb * 1.03, ..truth }
 }
 

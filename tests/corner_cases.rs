@@ -118,7 +118,7 @@ fn the_majorant_is_exceeded_only_where_it_does_not_bound() {
             let pixels = (0..24).flat_map(|x| (0..16).map(move |y| (x, y)));
             let paths = pixels.flat_map(|at| (0..8).map(move |sample| (at, sample)));
             paths.fold((0, 0), |(exceeded, lookups), ((x, y), sample)| {
-                let path = kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS);
+                let path = kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS.into());
                 (exceeded + path.exceeded, lookups + path.lookups)
             })
         };

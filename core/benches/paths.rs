@@ -27,7 +27,7 @@ fn trace(scene: &Scene, doc: &SceneDoc, entry: &Entry) -> Vec3 {
             y: (i * 101 / 7) % scene.height,
             sample: u64::from(i / 256),
         };
-        sum += (entry.kernel)(scene, &settings, at, Wanted::ALWAYS).rgb;
+        sum += (entry.kernel)(scene, &settings, at, Wanted::ALWAYS.into()).rgb;
     }
     sum
 }

@@ -19,6 +19,7 @@ pub mod compare;
 pub mod estimator;
 pub mod figures;
 pub mod film;
+pub mod inspect;
 pub mod io;
 pub mod light;
 pub mod math;

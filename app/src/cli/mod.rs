@@ -8,6 +8,8 @@ mod figures;
 mod info;
 mod lab;
 mod options;
+mod parts;
+mod path;
 mod progress;
 mod render;
 mod scenes;
@@ -35,6 +37,9 @@ Examples:
   majorant compare cloud-backlit --seconds 20 -o report --html
                                                   which estimator wins, and by how much
   majorant bench first-light --seconds 4          how much certainty does a second buy?
+  majorant path plume-spectral --pixel 64,60      replay the brightest of a pixel's paths, with its books
+  majorant parts cloud-sidelit --by order -o parts
+                                                  what each scattering order adds to the image
   majorant figures all -o report                  the report's figures, and the study that it calls for
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
@@ -59,6 +64,10 @@ enum Command {
     Compare(compare::Arguments),
     /// Reproduce the report: its figures, and every estimator at equal time with a conclusion.
     Figures(figures::Arguments),
+    /// Replay one path of an image and print its books, event by event.
+    Path(path::Arguments),
+    /// Take an image apart: by technique, scattering order, null collisions or hero.
+    Parts(parts::Arguments),
     /// List the estimators.
     Estimators,
     /// Describe a volume, picture or scene file.
@@ -93,6 +102,8 @@ pub fn main() -> ExitCode {
         Some(Command::Check(a)) => check::run(&a),
         Some(Command::Compare(a)) => compare::run(&a),
         Some(Command::Figures(a)) => figures::run(&a),
+        Some(Command::Path(a)) => path::run(&a),
+        Some(Command::Parts(a)) => parts::run(&a),
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),

@@ -151,7 +151,8 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
         for x in 0..size.0 {
             let block = plan.layout.block((x, y), size);
             for sample in first..first + plan.spp {
-                let estimate = (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, wanted);
+                let estimate =
+                    (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, wanted.into());
                 done.paths += 1;
                 done.lookups += estimate.lookups;
                 done.exceeded += estimate.exceeded;

@@ -5,9 +5,9 @@ use super::Estimator;
 use crate::math::{Sampler, SamplerKind};
 use crate::medium::{AnyMedium, Medium, SharedMajorant};
 use crate::scene::{Absorption, EstimatorDoc, Heuristic, Mode, Scene};
-use crate::spectrum::{Components, Grey, RgbChannels, WavelengthSampling, Wavelengths};
+use crate::spectrum::{Components, Grey, Radiance, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transmittance::TransmittanceKind;
-use crate::transport::{PathSettings, Trace, Wanted, World};
+use crate::transport::{Company, Note, PathSettings, Trace, World};
 use glam::{Vec2, Vec3};
 
 /// Which path of an image.
@@ -22,7 +22,7 @@ pub struct PathIndex {
 }
 
 /// Traces one path. The estimate of a path that is not wanted any more is meaningless.
-pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate;
+pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate;
 
 /// Everything besides the scene that an estimate depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,15 +82,15 @@ pub(super) fn family<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    wanted: Wanted<'_>,
+    company: Company<'_>,
 ) -> PathEstimate {
     // What leaves components out, leaves the noise of their choice in.
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
-        (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, wanted),
-        (Mode::Spectral, true) => in_medium::<E, Grey<true>, 1>(scene, s, at, wanted),
-        (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, wanted),
-        (Mode::Rgb, true) => in_medium::<E, Grey<false>, 1>(scene, s, at, wanted),
+        (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, company),
+        (Mode::Spectral, true) => in_medium::<E, Grey<true>, 1>(scene, s, at, company),
+        (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, company),
+        (Mode::Rgb, true) => in_medium::<E, Grey<false>, 1>(scene, s, at, company),
     }
 }
 
@@ -99,11 +99,11 @@ pub(super) fn single<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    wanted: Wanted<'_>,
+    company: Company<'_>,
 ) -> PathEstimate {
     match s.mode {
-        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, wanted),
-        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, wanted),
+        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, company),
+        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, company),
     }
 }
 
@@ -111,12 +111,12 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    wanted: Wanted<'_>,
+    company: Company<'_>,
 ) -> PathEstimate {
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
-        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, wanted),
+        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, company),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, company),
+        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, company),
     }
 }
 
@@ -125,13 +125,14 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     scene: &Scene,
     settings: &Settings,
     at: PathIndex,
-    wanted: Wanted<'_>,
+    company: Company<'_>,
 ) -> PathEstimate {
     let pixel = u64::from(at.y) * u64::from(scene.width) + u64::from(at.x);
-    let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), wanted);
+    let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), company);
     let (jitter, u) = trace.sampler.camera();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
     let components = C::sample(u, settings.wavelengths);
+    trace.tell(move || Note::Camera { ray, jitter, u, carried: components.carried() });
     let (medium, settings) = (medium.local(&components), settings.path);
     let radiance = if const { E::SHARED_MAJORANT } {
         let medium = SharedMajorant(medium);
@@ -139,7 +140,9 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     } else {
         E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
     };
-    PathEstimate { rgb: components.to_film(radiance), lookups: trace.lookups, exceeded: trace.exceeded }
+    let rgb = components.to_film(radiance);
+    trace.tell(move || Note::End { sum: radiance.lanes(), film: rgb });
+    PathEstimate { rgb, lookups: trace.lookups, exceeded: trace.exceeded }
 }
 
 #[cfg(test)]
@@ -148,6 +151,7 @@ mod tests {
     use crate::estimator::find;
     use crate::io::{Library, scene_file};
     use crate::scene::build;
+    use crate::transport::Wanted;
 
     /// Six by four pixels whose right half looks at a light.
     fn half_lit() -> (Scene, Settings) {
@@ -179,7 +183,7 @@ mod tests {
         for (x, y, sample) in (0..6).flat_map(|x| (0..4).flat_map(move |y| (0..8).map(move |s| (x, y, s)))) {
             let at = PathIndex { x, y, sample };
             let kernel = find("spectral-mis").unwrap().kernel;
-            let seen = kernel(&scene, &settings, at, Wanted::ALWAYS).rgb.element_sum();
+            let seen = kernel(&scene, &settings, at, Wanted::ALWAYS.into()).rgb.element_sum();
             assert_eq!(seen > 0.0, x >= 3, "{at:?}");
         }
     }
@@ -191,7 +195,9 @@ mod tests {
         // Which channel each of 32 paths carries tells the streams apart.
         let channels = |x, y| -> Vec<Vec3> {
             (0..32)
-                .map(|sample| kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS).rgb)
+                .map(|sample| {
+                    kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS.into()).rgb
+                })
                 .collect()
         };
         let pixels: Vec<_> = (3..6).flat_map(|x| (0..4).map(move |y| channels(x, y))).collect();

@@ -20,8 +20,8 @@ use crate::medium::LocalMedium;
 use crate::scene::{DistanceSampling, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    EquiangularWeights, Event, LightDensities, Passage, PathSettings, Reached, Trace, WalkWeights, Wanted,
-    World,
+    Company, EquiangularWeights, Event, LightDensities, Note, Passage, PathSettings, Reached, Technique,
+    Trace, WalkWeights, World,
 };
 
 pub(super) const ENTRY: Entry = Entry {
@@ -44,9 +44,9 @@ pub(super) const ENTRY: Entry = Entry {
     kernel,
 };
 
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
     let path = PathSettings { distances: DistanceSampling::Delta, ..settings.path };
-    dispatch::family::<EquiangularMis>(scene, &Settings { path, ..*settings }, at, wanted)
+    dispatch::family::<EquiangularMis>(scene, &Settings { path, ..*settings }, at, company)
 }
 
 struct EquiangularMis;
@@ -71,7 +71,9 @@ impl Estimator for EquiangularMis {
             if let Some(passage) = &passage
                 && vertices + 1 < world.settings.max_depth
             {
+                trace.tell(move || Note::ByAngle);
                 radiance += by_angle(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
+                trace.tell(move || Note::ByAngleEnds);
             }
 
             // Fly until something real happens; the weights follow every null collision.
@@ -79,7 +81,12 @@ impl Estimator for EquiangularMis {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.emitted(glow, &collision, heuristics);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.emitted(glow, &collision, heuristics),
+                        trace,
+                    );
                 }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
@@ -97,16 +104,17 @@ impl Estimator for EquiangularMis {
             } else {
                 // The walk has met light. Before the first real vertex only it could have.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += match &last {
-                        None => path.unidirectional(light.radiance, heuristics),
+                    let (other, value) = match &last {
+                        None => (0.0, path.unidirectional(light.radiance, heuristics)),
                         Some(vertex) => {
                             let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
                             let densities = reached.light_densities(world, light.index, ray.origin, nee);
-                            path.combined(light.radiance, densities, heuristics)
+                            (nee, path.combined(light.radiance, densities, heuristics))
                         }
                     };
+                    radiance += world.credit(Technique::Walk, (light.radiance, other), value, trace);
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);
@@ -121,8 +129,9 @@ impl Estimator for EquiangularMis {
             if let Some(aim) = world.aim(&vertex, trace) {
                 let densities = reached.light_densities(world, aim.light, vertex.point(), aim.density);
                 let link = path.connect(&aim.turn, densities);
-                if let Some(link) = world.pass_by_ratio(&aim.ray, aim.distance, link, trace) {
-                    radiance += link.connected(aim.radiance, heuristics);
+                if let Some(link) = world.arrive(&aim, link, trace) {
+                    let (other, value) = (aim.turn.density, link.connected(aim.radiance, heuristics));
+                    radiance += world.credit(Technique::Connection, (aim.radiance, other), value, trace);
                 }
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
@@ -154,6 +163,7 @@ fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let aim = world.aim_at(&vertex, light, trace.sampler.next_2d())?;
     let nee = aim.density * choice.probability(light, collision.point, by);
     let link = link.connect_by_angle(&aim.turn, LightDensities { nee, eq: aim.density });
-    let link = world.pass_by_ratio(&aim.ray, aim.distance, link, trace)?;
-    Some(link.connected_by_angle(aim.radiance, world.settings.heuristics))
+    let link = world.arrive(&aim, link, trace)?;
+    let value = link.connected_by_angle(aim.radiance, world.settings.heuristics);
+    Some(world.credit(Technique::Angle, (aim.radiance, aim.turn.density), value, trace))
 }

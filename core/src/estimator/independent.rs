@@ -16,7 +16,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, WalkWeights, World};
+use crate::transport::{Event, PathWeights, Technique, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "independent",
@@ -55,7 +55,12 @@ impl Estimator for Independent {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.hero_emitted(glow, &collision);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.hero_emitted(glow, &collision),
+                        trace,
+                    );
                 }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
@@ -71,9 +76,10 @@ impl Estimator for Independent {
                 world.scattering_vertex(point, &ray)
             } else {
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += path.hero_only(light.radiance);
+                    let value = path.hero_only(light.radiance);
+                    radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);

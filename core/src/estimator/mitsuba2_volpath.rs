@@ -22,7 +22,7 @@ use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{DensityDoc, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance, Sampled};
-use crate::transport::{Trace, Wanted, World};
+use crate::transport::{Company, Kept, Note, Technique, Trace, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "mitsuba2-volpath",
@@ -68,11 +68,11 @@ fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
         .or_else(|| biased_transmittance(doc))
 }
 
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
     if matches!(scene.medium, AnyMedium::Homogeneous(_)) || scene.achromatic {
-        dispatch::family::<Mitsuba2Volpath>(scene, settings, at, wanted)
+        dispatch::family::<Mitsuba2Volpath>(scene, settings, at, company)
     } else {
-        dispatch::single::<Mitsuba2Volpath>(scene, settings, at, wanted)
+        dispatch::single::<Mitsuba2Volpath>(scene, settings, at, company)
     }
 }
 
@@ -98,10 +98,11 @@ impl Estimator for Mitsuba2Volpath {
                 // Light that later segments meet was added when their direction was drawn.
                 if vertices == 0 {
                     for light in world.arrivals(&ray, &surface, true) {
-                        radiance += light.radiance * phi;
+                        let value = light.radiance * phi;
+                        radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 phi *= albedo;
@@ -109,6 +110,7 @@ impl Estimator for Mitsuba2Volpath {
             };
 
             vertices += 1;
+            trace.tell(move || Note::Vertex(Kept::throughput(phi)));
             if vertices >= world.settings.max_depth || phi.is_zero() || trace.must_stop() {
                 return radiance;
             }
@@ -117,26 +119,30 @@ impl Estimator for Mitsuba2Volpath {
             if let Some(aim) = world.aim(&vertex, trace) {
                 let (p_e, p_p) = (aim.density, aim.turn.density);
                 let weight = aim.turn.value * p_e / (p_e * p_e + p_p * p_p);
-                radiance +=
-                    aim.radiance * (phi * world.transmittance(&aim.ray, aim.distance, trace) * weight);
+                let value = aim.radiance * (phi * world.transmittance_to(&aim, trace) * weight);
+                radiance += world.credit(Technique::Connection, (aim.radiance, p_p), value, trace);
             }
 
             // The direction in which the path goes on.
-            let turn = world.turns().draw(&vertex, trace.sampler.direction());
-            trace.sampler.start_vertex();
+            let turn = world.draw_turn(&vertex, trace);
             ray = Ray { origin: vertex.point(), direction: turn.direction };
             let end = world.nearest_surface(&ray, false);
             for light in world.arrivals(&ray, &end, false) {
                 let p_e = world.aim_density(&vertex, light.index, ray.direction, end.t());
                 let p_p = turn.density;
                 let weight = turn.value * p_p / (p_p * p_p + p_e * p_e);
-                radiance += light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
+                trace.tell(move || Note::LightWalk);
+                let value = light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
+                radiance += world.credit(Technique::Walk, (light.radiance, p_e), value, trace);
+                trace.tell(move || Note::LightWalkEnds);
             }
             phi *= turn.value / turn.density;
 
             if vertices >= world.settings.roulette_depth {
                 let q = phi.max_component().clamp(0.05, 1.0);
-                if trace.sampler.roulette() >= q {
+                let u = trace.sampler.roulette();
+                trace.tell(move || Note::Roulette { u, q });
+                if u >= q {
                     return radiance;
                 }
                 phi *= 1.0 / q;

@@ -18,7 +18,7 @@ use crate::medium::LocalMedium;
 use crate::scene::SceneDoc;
 use crate::spectrum::{Components, Radiance};
 use crate::transmittance::TransmittanceKind;
-use crate::transport::{Event, PathWeights, Trace, WalkWeights, Weights, World};
+use crate::transport::{Event, PathWeights, Technique, Trace, WalkWeights, Weights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "nee",
@@ -54,7 +54,12 @@ impl Estimator for Nee {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.emitted(glow, &collision, heuristics);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.emitted(glow, &collision, heuristics),
+                        trace,
+                    );
                 }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
@@ -72,10 +77,11 @@ impl Estimator for Nee {
                 if vertices == 0 {
                     // No real vertex yet: only the walk can find this light.
                     for light in world.arrivals(&ray, &surface, true) {
-                        radiance += path.unidirectional(light.radiance, heuristics);
+                        let value = path.unidirectional(light.radiance, heuristics);
+                        radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);
@@ -92,7 +98,8 @@ impl Estimator for Nee {
                 world.connect_by_estimate(&vertex, &path, trace)
             };
             if let Some(link) = link {
-                radiance += link.weights.connected_only(link.radiance, heuristics);
+                let value = link.weights.connected_only(link.radiance, heuristics);
+                radiance += world.credit(Technique::Connection, (link.radiance, 0.0), value, trace);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;

@@ -17,7 +17,7 @@ use super::{
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, PathWeights, Trace, WalkWeights, World};
+use crate::transport::{Event, PathWeights, Technique, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-mis",
@@ -49,7 +49,12 @@ impl Estimator for SpectralMis {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.emitted(glow, &collision, heuristics);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.emitted(glow, &collision, heuristics),
+                        trace,
+                    );
                 }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
@@ -66,9 +71,10 @@ impl Estimator for SpectralMis {
             } else {
                 // The path has reached light: this is the only technique that makes it.
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += path.unidirectional(light.radiance, heuristics);
+                    let value = path.unidirectional(light.radiance, heuristics);
+                    radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);

@@ -20,7 +20,7 @@ use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{EventDensities, PathWeights, Trace, WalkWeights, World};
+use crate::transport::{Event, EventDensities, PathWeights, Technique, Trace, WalkWeights, World};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-tracking",
@@ -68,17 +68,21 @@ impl Estimator for SpectralTracking {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.emitted_as_drawn(glow, &collision);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.emitted_as_drawn(glow, &collision),
+                        trace,
+                    );
                 }
                 let densities = EventDensities::of(&collision, &path.contribution(), &world.settings);
-                let u = trace.sampler.event() * densities.total();
-                if u < densities.null {
-                    path.null_drawn(&collision, densities.drawn(densities.null));
-                } else if u < densities.null + densities.scattering {
-                    path.scatter_drawn(&collision, densities.drawn(densities.scattering));
-                    break Some(collision.point);
-                } else {
-                    return radiance;
+                match densities.draw_event(trace) {
+                    Event::Null => path.null_drawn(&collision, densities.drawn(densities.null)),
+                    Event::Absorption => return radiance,
+                    Event::Scattering => {
+                        path.scatter_drawn(&collision, densities.drawn(densities.scattering));
+                        break Some(collision.point);
+                    }
                 }
             };
 
@@ -86,9 +90,10 @@ impl Estimator for SpectralTracking {
                 world.scattering_vertex(point, &ray)
             } else {
                 for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    radiance += path.as_drawn(light.radiance);
+                    let value = path.as_drawn(light.radiance);
+                    radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);

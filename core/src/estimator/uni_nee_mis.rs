@@ -19,7 +19,8 @@ use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, LightWalk, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Event, Pairwise, Rescaled, Trace, Vertex, WalkWeights, Wanted, Weights, World,
+    ApartF32, ApartF64, Books, Company, Event, Note, Pairwise, Rescaled, Technique, Trace, Vertex,
+    WalkWeights, Weights, World,
 };
 use std::marker::PhantomData;
 
@@ -41,14 +42,14 @@ pub(super) const ENTRY: Entry = Entry {
 };
 
 /// One kernel for every way to keep the books.
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, wanted: Wanted<'_>) -> PathEstimate {
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
     let kernel = match settings.path.bookkeeping {
         Bookkeeping::Rescaled => dispatch::family::<UniNeeMis<Rescaled>>,
         Bookkeeping::ApartF32 => dispatch::family::<UniNeeMis<ApartF32>>,
         Bookkeeping::ApartF64 => dispatch::family::<UniNeeMis<ApartF64>>,
         Bookkeeping::Pairwise => dispatch::family::<UniNeeMis<Pairwise>>,
     };
-    kernel(scene, settings, at, wanted)
+    kernel(scene, settings, at, company)
 }
 
 struct UniNeeMis<B>(PhantomData<B>);
@@ -71,7 +72,12 @@ impl<B: Books> Estimator for UniNeeMis<B> {
             let scattered_at = loop {
                 let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
                 if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += path.emitted(glow, &collision, heuristics);
+                    radiance += world.credit(
+                        Technique::Glow,
+                        (glow, 0.0),
+                        path.emitted(glow, &collision, heuristics),
+                        trace,
+                    );
                 }
                 match collision.draw_event(trace) {
                     Event::Null => path.null(&collision),
@@ -88,9 +94,9 @@ impl<B: Books> Estimator for UniNeeMis<B> {
             } else {
                 // The walk has met light. Before the first real vertex only it could have.
                 if last.is_none() || world.settings.light_walk == LightWalk::Fused {
-                    radiance += world.met(last.as_ref(), &ray, &surface, &path);
+                    world.met(last.as_ref(), &ray, &surface, &path, &mut radiance, trace);
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface) else {
+                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 path.reflect(albedo);
@@ -102,35 +108,40 @@ impl<B: Books> Estimator for UniNeeMis<B> {
                 return radiance;
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {
-                radiance += link.weights.connected_combined(link.radiance, heuristics);
+                let value = link.weights.connected_combined(link.radiance, heuristics);
+                let other = link.turn.density;
+                radiance += world.credit(Technique::Connection, (link.radiance, other), value, trace);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
             ray = world.leave(&vertex, &mut path, trace);
             if world.settings.light_walk == LightWalk::Separate {
-                radiance += by_separate_walk(world, &vertex, &ray, path, trace);
+                by_separate_walk(world, &vertex, &ray, path, &mut radiance, trace);
             }
             last = Some(vertex);
         }
     }
 }
 
-/// What a walk of its own along a ray meets, if nothing real happens on its way.
+/// Adds what a walk of its own along a ray meets, if nothing real happens on its way.
 fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     vertex: &Vertex,
     ray: &Ray,
     mut path: W,
+    radiance: &mut C::Radiance,
     trace: &mut Trace<'_>,
-) -> C::Radiance {
+) {
+    trace.tell(move || Note::LightWalk);
     let surface = world.nearest_surface(ray, false);
     let mut walk = world.walk_to_light(ray, surface.t());
     while let Some(collision) = walk.next_collision(trace, &mut path) {
         match collision.draw_event(trace) {
             Event::Null => path.null(&collision),
-            Event::Absorption | Event::Scattering => return C::Radiance::BLACK,
+            Event::Absorption | Event::Scattering => return trace.tell(move || Note::LightWalkEnds),
         }
     }
-    world.met(Some(vertex), ray, &surface, &path)
+    world.met(Some(vertex), ray, &surface, &path, radiance, trace);
+    trace.tell(move || Note::LightWalkEnds);
 }

@@ -74,13 +74,26 @@ pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
 /// # Errors
 /// When the file cannot be written.
 pub fn write_png(path: &Path, snapshot: &Snapshot, view: &ViewDoc) -> std::result::Result<(), ExportError> {
+    write_png_of(path, &snapshot.mean, [snapshot.width, snapshot.height], view)
+}
+
+/// Writes linear sRGB, row by row from the top, as a PNG as the view shows it.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn write_png_of(
+    path: &Path,
+    linear: &[[f32; 3]],
+    [width, height]: [usize; 2],
+    view: &ViewDoc,
+) -> std::result::Result<(), ExportError> {
     let display = DisplayTransform::new(view);
-    let bytes: Vec<u8> = snapshot.mean.iter().flat_map(|p| display.encode(*p)).collect();
+    let bytes: Vec<u8> = linear.iter().flat_map(|p| display.encode(*p)).collect();
     image::save_buffer_with_format(
         path,
         &bytes,
-        snapshot.width as u32,
-        snapshot.height as u32,
+        width as u32,
+        height as u32,
         image::ExtendedColorType::Rgb8,
         image::ImageFormat::Png,
     )

@@ -4,7 +4,7 @@ use glam::{Affine3A, Vec3, Vec3A};
 
 /// A half-line. In world space its direction has unit length, so that `t` is a distance; a ray taken
 /// into another space keeps its `t` and may have a direction of any length.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Where it starts.
     pub origin: Vec3,

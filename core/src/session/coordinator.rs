@@ -201,13 +201,14 @@ mod tests {
     use super::*;
     use crate::estimator::{Kernel, PathEstimate, PathIndex};
     use crate::scene::{Scene, SceneDoc};
+    use crate::transport::Company;
     use std::sync::Arc;
 
-    fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+    fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
         panic!("no estimate for pixel {} {}", at.x, at.y)
     }
 
-    fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+    fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
         let value = if at.x == 1 && at.sample == 0 { f32::NAN } else { 0.5 };
         PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
     }

@@ -73,6 +73,10 @@ impl Work<'_> {
         cost: &mut Cost,
     ) -> Option<()> {
         let mut first = samples.start;
+        if first == 0 {
+            // The memory may have been another film's.
+            row.fill(Pixel::default());
+        }
         while first < samples.end {
             let some = first..samples.end.min(first + BUFFERED_SAMPLES);
             let clock = ThreadTime::now();
@@ -111,13 +115,14 @@ mod tests {
     use crate::estimator::{self, Kernel, PathIndex, Settings};
     use crate::io::Library;
     use crate::scene::{Scene, SceneDoc, build};
+    use crate::transport::Company;
     use glam::Vec3;
     use std::sync::Arc;
 
     const SAMPLES: u64 = 6;
 
     /// Every third path of a row has no value.
-    fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: Wanted<'_>) -> PathEstimate {
+    fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
         let value = if (at.x + at.y).is_multiple_of(3) { f32::NAN } else { at.sample as f32 };
         PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x), exceeded: 0 }
     }

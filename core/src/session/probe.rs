@@ -1,6 +1,7 @@
 //! Any path of a view, traced again: random numbers are a function of (seed, pixel, sample).
 
-use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
+use crate::estimator::{Entry, Kernel, PathEstimate, PathIndex, Settings};
+use crate::inspect::{Recording, Split, Strategies, StrategyPlan};
 use crate::scene::Scene;
 use crate::transport::Wanted;
 use std::fmt;
@@ -62,9 +63,40 @@ impl Probe {
 
     /// The path of sample number `sample` of a pixel, exactly as the film has received it.
     pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
+        (self.kernel)(self.scene_of(sample), &self.settings, PathIndex { x, y, sample }, wanted.into())
+    }
+
+    /// The same path with every step that it takes.
+    #[must_use]
+    pub fn record(&self, at: PathIndex, wanted: Wanted<'_>) -> Recording {
+        Recording::new(self.scene_of(at.sample), self.kernel, &self.settings, at, wanted)
+    }
+
+    /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
+    #[must_use]
+    pub fn strategies(&self, split: Split, samples: Range<u64>, wanted: Wanted<'_>) -> Option<Strategies> {
+        Strategies::render(
+            &StrategyPlan {
+                scene: &self.scene,
+                kernel: self.kernel,
+                settings: &self.settings,
+                split,
+                samples: (samples.start, samples.end),
+            },
+            wanted,
+        )
+    }
+
+    /// The same scene and random numbers under another estimator.
+    #[must_use]
+    pub fn under(&self, entry: &Entry) -> Self {
+        Self { kernel: entry.kernel, ..self.clone() }
+    }
+
+    /// The scene that a sample was traced in.
+    fn scene_of(&self, sample: u64) -> &Scene {
         let earlier = self.before.iter().find(|(end, _)| sample < *end);
-        let scene = earlier.map_or(&self.scene, |(_, scene)| scene);
-        (self.kernel)(scene, &self.settings, PathIndex { x, y, sample }, wanted)
+        earlier.map_or(&self.scene, |(_, scene)| scene)
     }
 
     /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not

@@ -30,6 +30,9 @@ pub trait Components<const N: usize>: Copy + Send + Sync {
     /// Radiance of a black body of so many kelvins, at the components.
     fn blackbody(&self, kelvin: f32) -> Self::Radiance;
 
+    /// What they are.
+    fn carried(&self) -> Carried;
+
     /// The linear sRGB estimate that radiance at the components amounts to.
     fn to_film(&self, radiance: Self::Radiance) -> Vec3;
 }
@@ -38,8 +41,40 @@ pub trait Components<const N: usize>: Copy + Send + Sync {
 pub trait Radiance<const N: usize>: Copy + AddAssign + Mul<Sampled<N>, Output = Self> {
     /// No light.
     const BLACK: Self;
+
+    /// Its numbers: one per component, or those of the film.
+    fn lanes(&self) -> Lanes;
+}
+
+/// Values at the components of a path, of which there are at most four; the hero's first, zero beyond the last.
+pub type Lanes = [f32; 4];
+
+/// What the components of a path stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Carried {
+    /// Wavelengths in nanometres: so many of these.
+    Wavelengths(Lanes, usize),
+    /// Channels of the film, 0 to 2: so many of these.
+    Channels(Lanes, usize),
+    /// One weight for all: nothing has a colour, and what a path gathers is in the colours of the film.
+    Grey,
+}
+
+impl Carried {
+    /// Components that have weights of their own.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Wavelengths(_, n) | Self::Channels(_, n) => *n,
+            Self::Grey => 1,
+        }
+    }
 }
 
 impl<const N: usize> Radiance<N> for Sampled<N> {
     const BLACK: Self = Self::ZERO;
+
+    fn lanes(&self) -> Lanes {
+        Sampled::lanes(*self)
+    }
 }

@@ -4,7 +4,9 @@
 //! The path then carries one component, and what it gathers is each light's own colour on the film:
 //! ∫ response(λ) Le(λ) dλ in closed form. No noise in colour is left.
 
-use super::{Components, Radiance, Sampled, Spectrum, WavelengthSampling, blackbody, observer};
+use super::{
+    Carried, Components, Lanes, Radiance, Sampled, Spectrum, WavelengthSampling, blackbody, observer,
+};
 use glam::Vec3;
 use std::ops::{AddAssign, Mul};
 
@@ -31,6 +33,10 @@ impl Mul<Sampled<1>> for FilmColour {
 
 impl Radiance<1> for FilmColour {
     const BLACK: Self = Self(Vec3::ZERO);
+
+    fn lanes(&self) -> Lanes {
+        self.0.extend(0.0).to_array()
+    }
 }
 
 impl<const SPECTRAL: bool> Components<1> for Grey<SPECTRAL> {
@@ -58,6 +64,10 @@ impl<const SPECTRAL: bool> Components<1> for Grey<SPECTRAL> {
 
     fn blackbody(&self, kelvin: f32) -> FilmColour {
         FilmColour(if SPECTRAL { blackbody::film_colour(kelvin) } else { blackbody::rgb(kelvin) })
+    }
+
+    fn carried(&self) -> Carried {
+        Carried::Grey
     }
 
     fn to_film(&self, radiance: FilmColour) -> Vec3 {

@@ -19,7 +19,7 @@ mod wavelengths;
 
 pub use blackbody::HOTTEST_K;
 pub use combined::Rule;
-pub use components::{Components, Radiance};
+pub use components::{Carried, Components, Lanes, Radiance};
 pub use doc::{ControlPoint, Outside, SpectrumDoc};
 pub use grey::{FilmColour, Grey};
 pub use observer::{response, wavelength_colour};

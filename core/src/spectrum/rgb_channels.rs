@@ -1,6 +1,6 @@
 //! RGB mode: components are the film's channels.
 
-use super::{Components, Sampled, Spectrum, WavelengthSampling, blackbody};
+use super::{Carried, Components, Sampled, Spectrum, WavelengthSampling, blackbody};
 use glam::Vec3;
 
 /// Colour channels: the hero uniform over red, green and blue, the others in rotation.
@@ -36,6 +36,10 @@ impl<const N: usize> Components<N> for RgbChannels<N> {
 
     fn blackbody(&self, kelvin: f32) -> Sampled<N> {
         self.upsample(blackbody::rgb(kelvin))
+    }
+
+    fn carried(&self) -> Carried {
+        Carried::Channels(Sampled(self.channel.map(|c| c as f32)).lanes(), N)
     }
 
     fn to_film(&self, radiance: Sampled<N>) -> Vec3 {

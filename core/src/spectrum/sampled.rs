@@ -1,5 +1,6 @@
 //! Values at a path's components.
 
+use super::Lanes;
 use crate::math;
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub};
 
@@ -61,6 +62,16 @@ impl<const N: usize> Sampled<N> {
     #[inline]
     pub fn exp(self) -> Self {
         self.map(math::exp)
+    }
+
+    /// Its values, as many as any path has.
+    #[must_use]
+    pub fn lanes(self) -> Lanes {
+        let mut lanes = [0.0; 4];
+        for (lane, value) in lanes.iter_mut().zip(self.0) {
+            *lane = value;
+        }
+        lanes
     }
 
     /// Absolute values.

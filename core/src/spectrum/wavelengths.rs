@@ -1,7 +1,8 @@
 //! Spectral mode: components are wavelengths.
 
 use super::{
-    Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, Sampled, Spectrum, blackbody, observer,
+    Carried, Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, Sampled, Spectrum, blackbody,
+    observer,
 };
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -64,6 +65,10 @@ impl<const N: usize> Components<N> for Wavelengths<N> {
 
     fn blackbody(&self, kelvin: f32) -> Sampled<N> {
         Sampled(self.lambda_nm.map(|lambda| blackbody::planck(lambda, kelvin)))
+    }
+
+    fn carried(&self) -> Carried {
+        Carried::Wavelengths(Sampled(self.lambda_nm).lanes(), N)
     }
 
     /// Mean over the set of response · radiance / density.

@@ -1,6 +1,6 @@
 //! What an estimator keeps of a path, whichever way it does.
 
-use super::{Collision, PathWeights, Turn, WeightsApart, WeightsPairwise};
+use super::{Collision, Kept, PathWeights, Turn, WeightsApart, WeightsPairwise};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -41,6 +41,9 @@ pub trait WalkWeights<const N: usize>: Copy {
     /// How bright the path is at its brightest component relative to how likely it is for any hero;
     /// the same whichever component is the hero.
     fn throughput(&self) -> f32;
+
+    /// The numbers that are kept, for whoever looks on.
+    fn kept(&self) -> Kept;
 
     /// Whether nothing can come of the path any more.
     fn is_dark(&self) -> bool;

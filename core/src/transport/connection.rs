@@ -3,12 +3,12 @@
 //! Every collision on the way is taken as null (ratio tracking), so that the connection always
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{Collision, Trace, Turn, Vertex, WalkWeights, Weights, World};
+use super::{Collision, Note, Technique, Trace, Turn, Vertex, WalkWeights, Weights, World};
 use crate::light::{Emitter, LobeParts};
 use crate::math::{BoxRay, Ray};
 use crate::medium::LocalMedium;
 use crate::scene::{LightSampling, NearestSurface};
-use crate::spectrum::{Components, Radiance, Sampled};
+use crate::spectrum::{Components, Sampled};
 use crate::transmittance::InMedium;
 use glam::{Vec2, Vec3};
 
@@ -19,6 +19,8 @@ pub struct Connection<R, W> {
     pub weights: W,
     /// Emitted radiance.
     pub radiance: R,
+    /// The turn of the path at its vertex, and the density with which the walk would have taken it.
+    pub turn: Turn,
 }
 
 /// A direction drawn towards a light, of which nothing stands in the way but the medium.
@@ -38,6 +40,19 @@ pub struct Aim<R> {
     pub light: usize,
 }
 
+impl<R> Aim<R> {
+    pub(super) fn note(&self) -> Note {
+        Note::Connect {
+            ray: self.ray,
+            distance: self.distance,
+            value: self.turn.value,
+            walk_density: self.turn.density,
+            light_density: self.density,
+            light: self.light,
+        }
+    }
+}
+
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// As [`Self::connect`], but the transmittance is estimated as the settings say. It then has no density of its
     /// own, so that nothing but heroes can share the path.
@@ -49,8 +64,10 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
         let mut weights = path.connect(&aim.turn, aim.density);
+        trace.tell(move || aim.note());
         weights.attenuate(self.estimate_transmittance(&aim.ray, aim.distance, trace));
-        Some(Connection { weights, radiance: aim.radiance })
+        trace.tell(move || Note::Connected { arrives: true });
+        Some(Connection { weights, radiance: aim.radiance, turn: aim.turn })
     }
 
     /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
@@ -62,8 +79,24 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
         let weights = path.connect(&aim.turn, aim.density);
-        let weights = self.pass_by_ratio(&aim.ray, aim.distance, weights, trace)?;
-        Some(Connection { weights, radiance: aim.radiance })
+        let weights = self.arrive(&aim, weights, trace)?;
+        Some(Connection { weights, radiance: aim.radiance, turn: aim.turn })
+    }
+
+    /// Passes the way to a light, as [`Self::pass_by_ratio`].
+    #[inline]
+    pub fn arrive<W: WalkWeights<N>>(
+        &self,
+        aim: &Aim<C::Radiance>,
+        weights: W,
+        trace: &mut Trace<'_>,
+    ) -> Option<W> {
+        let told = *aim;
+        trace.tell(move || told.note());
+        let weights = self.pass_by_ratio(&aim.ray, aim.distance, weights, trace);
+        let arrives = weights.is_some();
+        trace.tell(move || Note::Connected { arrives });
+        weights
     }
 
     /// Passes a stretch of a ray, with every collision taken as null (ratio tracking); `None` if nothing is left.
@@ -131,9 +164,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         })
     }
 
-    /// Light that a walk has met at the end of a ray, shared with the connections of the vertex that it left. Light that
-    /// the camera sees could only be met.
-    #[must_use]
+    /// Adds light that a walk has met at the end of a ray, shared with the connections of the vertex that it left. Light
+    /// that the camera sees could only be met.
     #[inline]
     pub fn met<W: Weights<N>>(
         &self,
@@ -141,19 +173,20 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         ray: &Ray,
         end: &NearestSurface<'_>,
         path: &W,
-    ) -> C::Radiance {
+        radiance: &mut C::Radiance,
+        trace: &mut Trace<'_>,
+    ) {
         let heuristics = self.settings.heuristics;
-        let mut radiance = C::Radiance::BLACK;
         for light in self.arrivals(ray, end, last.is_none()) {
-            radiance += match last {
-                None => path.unidirectional(light.radiance, heuristics),
+            let (other, value) = match last {
+                None => (0.0, path.unidirectional(light.radiance, heuristics)),
                 Some(vertex) => {
                     let nee = self.aim_density(vertex, light.index, ray.direction, end.t());
-                    path.combined(light.radiance, nee, heuristics)
+                    (nee, path.combined(light.radiance, nee, heuristics))
                 }
             };
+            *radiance += self.credit(Technique::Walk, (light.radiance, other), value, trace);
         }
-        radiance
     }
 
     /// The density with which [`Self::aim`] draws a direction at a vertex that reaches a light after `distance`; per
@@ -185,6 +218,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let profile = InMedium::new(&self.medium, inside);
         let estimate = self.settings.transmittance.estimate(&profile, &mut trace.sampler);
         trace.lookups += u64::from(estimate.lookups);
+        trace.tell(move || Note::Transmittance { estimate: estimate.weight.lanes() });
         estimate.weight
     }
 }

@@ -1,7 +1,7 @@
 //! What a renderer without path densities offers: flights, connections and transmittance as weights that are
 //! divided by their density already (the report's algorithms 1–3).
 
-use super::{Event, PathWeights, Trace, WalkWeights, World};
+use super::{Aim, Event, Note, PathWeights, Trace, WalkWeights, World};
 use crate::math::{BoxRay, Ray, exp};
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
@@ -20,6 +20,13 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// Flies until something scatters: by the mean extinction where the medium is uniform (algorithm 2), by
     /// delta tracking elsewhere (algorithm 3), whose components must share one extinction.
     pub fn sample_distance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Flight<N> {
+        let flight = self.fly(ray, t_max, trace);
+        let Flight { scattered_at, weight } = flight;
+        trace.tell(move || Note::Flight { scattered_at, weight: weight.lanes() });
+        flight
+    }
+
+    fn fly(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Flight<N> {
         if let Some((extinction, albedo)) = self.medium.uniform() {
             let escaped = Flight { scattered_at: None, weight: Sampled::ONE };
             let Some((t0, inside)) = BoxRay::enter(ray, &self.scene.medium_from_world, t_max) else {
@@ -52,12 +59,24 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Flight { scattered_at: None, weight: Sampled::ONE }
     }
 
+    /// [`Self::transmittance`] of a connection.
+    pub fn transmittance_to(&self, aim: &Aim<C::Radiance>, trace: &mut Trace<'_>) -> Sampled<N> {
+        let told = *aim;
+        trace.tell(move || told.note());
+        let transmittance = self.transmittance(&aim.ray, aim.distance, trace);
+        trace.tell(move || Note::Connected { arrives: !transmittance.is_zero() });
+        transmittance
+    }
+
     /// Transmittance along a ray up to `t_max`: exact where the medium is uniform, estimated elsewhere, by ratio tracking unless the
     /// settings say otherwise.
     pub fn transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
         if let Some((extinction, _)) = self.medium.uniform() {
             let inside = BoxRay::enter(ray, &self.scene.medium_from_world, t_max);
-            return inside.map_or(Sampled::ONE, |(_, inside)| extinction.map(|e| exp(-e * inside.t_end)));
+            let exact = |(_, inside): (f32, BoxRay)| extinction.map(|e| exp(-e * inside.t_end));
+            let estimate = inside.map_or(Sampled::ONE, exact);
+            trace.tell(move || Note::Transmittance { estimate: estimate.lanes() });
+            return estimate;
         }
         self.estimate_transmittance(ray, t_max, trace)
     }

@@ -17,7 +17,7 @@
 //! μ̄ − μc, for which the table holds with μt − μc in place of μt. A path is one of a larger space, in which every
 //! collision is of one kind or the other; f and all densities are those of its kind, so that heuristics hold as before.
 
-use super::{PathSettings, Trace};
+use super::{Found, Note, PathSettings, Trace};
 use crate::medium::Coefficients;
 use crate::scene::{Absorption, DistanceSampling};
 use crate::spectrum::Sampled;
@@ -162,15 +162,24 @@ impl<const N: usize> Collision<N> {
     /// Draws whether the collision is real, by μt / μ̄ of the hero (the report's algorithm 3): where the majorant is
     /// exceeded it always is.
     pub fn draw_real(&self, trace: &mut Trace<'_>) -> Event {
-        let c = &self.coefficients;
-        let real = trace.sampler.event() * c.majorant.hero() < c.extinction().hero();
-        if real { Event::Scattering } else { Event::Null }
+        let (c, u) = (&self.coefficients, trace.sampler.event());
+        let real = u * c.majorant.hero() < c.extinction().hero();
+        let event = if real { Event::Scattering } else { Event::Null };
+        trace.tell(move || Note::Drawn { event, u });
+        event
     }
 
     /// Draws the event from the hero's densities.
     pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
+        let u = trace.sampler.event();
+        let event = self.event_at(u * self.tentative.hero());
+        trace.tell(move || Note::Drawn { event, u });
+        event
+    }
+
+    #[inline]
+    fn event_at(&self, u: f32) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
-        let u = trace.sampler.event() * self.tentative.hero();
         // The three densities add up to the tentative one. An event of density zero is never drawn, even by rounding.
         if u < self.absorption_density {
             Event::Absorption
@@ -182,6 +191,24 @@ impl<const N: usize> Collision<N> {
             Event::Scattering
         } else {
             Event::Absorption
+        }
+    }
+}
+
+impl<const N: usize> Collision<N> {
+    /// As it is told, `passed` by the majorants.
+    pub(super) fn found(&self, passed: Sampled<N>) -> Found {
+        let c = &self.coefficients;
+        Found {
+            point: self.point,
+            passed: passed.lanes(),
+            absorption: c.absorption.lanes(),
+            scattering: c.scattering.lanes(),
+            null: c.null.lanes(),
+            majorant: c.majorant.lanes(),
+            tentative: self.tentative.lanes(),
+            null_density: self.null_density.lanes(),
+            scattering_density: self.scattering_density.lanes(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Events that are drawn for all components at once, as spectral tracking does.
 
-use super::{Collision, PathSettings};
+use super::{Collision, Event, Note, PathSettings, Trace};
 use crate::scene::{Absorption, Tracking};
 use crate::spectrum::Sampled;
 
@@ -45,6 +45,30 @@ impl EventDensities {
     #[must_use]
     pub fn total(&self) -> f32 {
         self.null + self.scattering + self.absorption
+    }
+
+    /// Draws the event.
+    #[inline]
+    pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
+        let number = trace.sampler.event();
+        let u = number * self.total();
+        let event = if u < self.null {
+            Event::Null
+        } else if u < self.null + self.scattering {
+            Event::Scattering
+        } else {
+            Event::Absorption
+        };
+        let told = *self;
+        trace.tell(move || {
+            let density = match event {
+                Event::Null => told.null,
+                Event::Scattering => told.scattering,
+                Event::Absorption => told.absorption,
+            };
+            Note::DrawnForAll { event, u: number, density: told.drawn(density) }
+        });
+        event
     }
 
     /// The density with which an event was drawn: μ̄ times its probability.

@@ -3,7 +3,7 @@
 //! An optical depth with density e^(−τ) is drawn once per collision and spent segment by segment, so
 //! that a ray may cross any number of segments at the price of one logarithm.
 
-use super::{Collision, EventRule, Trace, WalkWeights};
+use super::{Collision, EventRule, Note, Trace, WalkWeights};
 use crate::math::{BoxRay, Ray};
 use crate::medium::{LocalMedium, MajorantSegment, Violations};
 use crate::scene::{DistanceSampling, Scene};
@@ -88,7 +88,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             let in_segment = hero * (segment.t1 - way.t);
             if optical_depth < in_segment {
                 let distance = optical_depth / hero;
-                weights.pass(passed + segment.majorant * distance);
+                let passed = passed + segment.majorant * distance;
+                weights.pass(passed);
                 way.t += distance;
                 let (point, inside) = (way.in_world.at(way.t), way.in_medium.at(way.t));
                 let collision = if self.rule.distances == DistanceSampling::Decomposition && self.to_vertex {
@@ -101,6 +102,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                     trace.exceeded += 1;
                     self.violations.note(inside, collision.coefficients.excess);
                 }
+                let kept = *weights;
+                trace.tell(move || Note::Collision(collision.found(passed), kept.kept()));
                 return Some(collision);
             }
             optical_depth -= in_segment;
@@ -111,6 +114,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             way.segment = next;
         }
         weights.pass(passed);
+        trace.tell(move || Note::Exit { passed: passed.lanes() });
         self.way = None;
         None
     }

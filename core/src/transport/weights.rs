@@ -21,7 +21,7 @@
 //! alone: weights that leave them out of *every* technique still sum to one.
 
 use super::heuristic::{among_all, among_heroes};
-use super::{Collision, Turn, WalkWeights, Weights};
+use super::{Collision, Kept, Turn, WalkWeights, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -99,6 +99,14 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
     fn throughput(&self) -> f32 {
         let now = self.settled();
         now.contribution.abs().max_component() / now.uni.mean()
+    }
+
+    fn kept(&self) -> Kept {
+        let now = self.settled();
+        Kept {
+            names: ["f/P", "p_uni/P", "p_nee/P"],
+            values: [now.contribution.lanes(), now.uni.lanes(), now.nee.lanes()],
+        }
     }
 
     #[inline]

@@ -6,7 +6,7 @@
 //! times as long.
 
 use super::heuristic::share;
-use super::{Collision, Turn, WalkWeights, Weights};
+use super::{Collision, Kept, Turn, WalkWeights, Weights};
 use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 use std::ops::{AddAssign, Div, Mul, MulAssign};
@@ -147,6 +147,11 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
 
     fn throughput(&self) -> f32 {
         self.over(mean(self.uni), 1.0).abs().max_component()
+    }
+
+    fn kept(&self) -> Kept {
+        let [f, uni, nee] = [self.f, self.uni, self.nee].map(|of| Sampled(of.map(T::single)).lanes());
+        Kept { names: ["f", "p_uni", "p_nee"], values: [f, uni, nee] }
     }
 
     fn is_dark(&self) -> bool {

@@ -13,7 +13,7 @@
 //! p_eq over the density P with which the path was made, but for what depends on the light that it ends at.
 
 use super::heuristic::{among_all, among_heroes};
-use super::{Collision, Turn, WalkWeights};
+use super::{Collision, Kept, Turn, WalkWeights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -94,6 +94,13 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
 
     fn throughput(&self) -> f32 {
         self.contribution.abs().max_component() / self.uni.mean()
+    }
+
+    fn kept(&self) -> Kept {
+        Kept {
+            names: ["f/P", "p_uni/P", "p_nee/P"],
+            values: [self.contribution.lanes(), self.uni.lanes(), self.nee.lanes()],
+        }
     }
 
     fn is_dark(&self) -> bool {

@@ -8,7 +8,7 @@
 //! technique and event, and that no heuristic but the balance heuristic can be formed of them (Miller et al. 2019,
 //! equations 26–30). Where f_j is zero the quotients are infinite, and stay so.
 
-use super::{Collision, Turn, WalkWeights, Weights};
+use super::{Collision, Kept, Turn, WalkWeights, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -86,6 +86,13 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
 
     fn throughput(&self) -> f32 {
         inverse_mean(self.uni).abs().max_component()
+    }
+
+    /// Of the quotients of all pairs those by the contribution of the hero.
+    fn kept(&self) -> Kept {
+        let of_hero = |quotients: [Sampled<N>; N]| Sampled(quotients.map(|row| row.hero())).lanes();
+        let (uni, nee) = (of_hero(self.uni), of_hero(self.nee));
+        Kept { names: ["p_uni/f₁", "p_nee/f₁", "p_uni,₁/f"], values: [uni, nee, self.uni[0].lanes()] }
     }
 
     fn is_dark(&self) -> bool {

@@ -1,6 +1,6 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Collision, EventRule, Guide, Turns, Vertex, Walk, WalkWeights, Wanted};
+use super::{Collision, Company, EventRule, Guide, Note, Technique, Turn, Turns, Vertex, Walk, WalkWeights};
 use crate::light::{Emitter, LobeParts};
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
@@ -8,7 +8,7 @@ use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristics, LightSampling, LightSelection,
     LightWalk, NearestSurface, Scene, Tracking,
 };
-use crate::spectrum::{Components, Sampled};
+use crate::spectrum::{Components, Radiance, Sampled};
 use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
 use glam::Vec3;
@@ -45,8 +45,8 @@ pub struct PathSettings {
 /// Steps of a path between two questions whether it is still wanted.
 const ASK_EVERY: u32 = 1024;
 
-/// The random numbers of one path, what it has cost, and whether it is still wanted.
-#[derive(Clone, Debug)]
+/// The random numbers of one path, what it has cost, and who accompanies it.
+#[derive(Debug)]
 pub struct Trace<'a> {
     /// Random numbers.
     pub sampler: Sampler,
@@ -54,7 +54,7 @@ pub struct Trace<'a> {
     pub lookups: u64,
     /// Collisions at which the extinction exceeded the majorant.
     pub exceeded: u64,
-    wanted: Wanted<'a>,
+    company: Company<'a>,
     steps: u32,
     stopped: bool,
 }
@@ -62,14 +62,20 @@ pub struct Trace<'a> {
 impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
-    pub fn new(sampler: Sampler, wanted: Wanted<'a>) -> Self {
-        Self { sampler, lookups: 0, exceeded: 0, wanted, steps: 0, stopped: false }
+    pub fn new(sampler: Sampler, company: impl Into<Company<'a>>) -> Self {
+        Self { sampler, lookups: 0, exceeded: 0, company: company.into(), steps: 0, stopped: false }
+    }
+
+    /// Tells a step to whoever looks on.
+    #[inline(always)]
+    pub fn tell(&mut self, note: impl FnOnce() -> Note) {
+        self.company.tell(note);
     }
 
     /// Counts a collision or a vertex; true once the path is not wanted any more, and from then on.
     pub fn must_stop(&mut self) -> bool {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(ASK_EVERY) && !self.wanted.yes() {
+        if self.steps.is_multiple_of(ASK_EVERY) && !self.company.wanted.yes() {
             self.stopped = true;
         }
         self.stopped
@@ -123,6 +129,27 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         (kelvin > 0.0).then(|| self.components.blackbody(kelvin) * Sampled::splat(emission.scale))
     }
 
+    /// Adds light to the estimate: hands back `value`, what `emitted` light is worth by the path, and tells of it. The other
+    /// technique that could have sampled the light would have done so with `other_density`.
+    #[inline(always)]
+    pub fn credit(
+        &self,
+        technique: Technique,
+        (emitted, other_density): (C::Radiance, f32),
+        value: C::Radiance,
+        trace: &mut Trace<'_>,
+    ) -> C::Radiance {
+        let components = self.components;
+        trace.tell(move || Note::Credit {
+            technique,
+            emitted: emitted.lanes(),
+            other_density,
+            value: value.lanes(),
+            film: components.to_film(value),
+        });
+        value
+    }
+
     /// The surface that a ray meets first. Rays from the camera pass through hidden lights.
     #[must_use]
     pub fn nearest_surface(&self, ray: &Ray, from_camera: bool) -> NearestSurface<'_> {
@@ -152,14 +179,21 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// The diffuse vertex at which a ray ends, with its albedo; `None` on lights and beyond the scene.
     #[must_use]
-    pub fn diffuse_vertex(&self, ray: &Ray, end: &NearestSurface) -> Option<(Vertex, Sampled<N>)> {
+    pub fn diffuse_vertex(
+        &self,
+        ray: &Ray,
+        end: &NearestSurface,
+        trace: &mut Trace<'_>,
+    ) -> Option<(Vertex, Sampled<N>)> {
         let Some(Role::Diffuse(albedo)) = end.role() else { return None };
         let point = ray.at(end.t());
         let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
         // Off the surface by several times the rounding of the point's own coordinates, whose error is
         // that of the ray's origin and of the point.
         let lift = 1e-6 * (point.abs().max_element() + ray.origin.abs().max_element());
-        Some((Vertex::Surface { point: point + normal * lift, normal }, self.components.evaluate(albedo)))
+        let albedo = self.components.evaluate(albedo);
+        trace.tell(move || Note::Surface { point, albedo: albedo.lanes() });
+        Some((Vertex::Surface { point: point + normal * lift, normal }, albedo))
     }
 
     /// A scattering vertex in the medium, on this ray.
@@ -189,15 +223,27 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// Draws the direction that a path leaves a vertex in.
     #[inline]
     pub fn leave(&self, vertex: &Vertex, weights: &mut impl WalkWeights<N>, trace: &mut Trace<'_>) -> Ray {
-        let turn = self.turns().draw(vertex, trace.sampler.direction());
-        trace.sampler.start_vertex();
+        let turn = self.draw_turn(vertex, trace);
         weights.leave(&turn);
         Ray { origin: vertex.point(), direction: turn.direction }
+    }
+
+    /// Draws the turn of a path at a vertex.
+    #[inline]
+    pub fn draw_turn(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Turn {
+        let u = trace.sampler.direction();
+        let turn = self.turns().draw(vertex, u);
+        trace.sampler.start_vertex();
+        let ray = Ray { origin: vertex.point(), direction: turn.direction };
+        trace.tell(move || Note::Leave { ray, u, value: turn.value, density: turn.density });
+        turn
     }
 
     /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
     /// can still contribute, it is still wanted.
     pub fn goes_on(&self, vertices: u32, weights: &impl WalkWeights<N>, trace: &mut Trace<'_>) -> bool {
+        let kept = *weights;
+        trace.tell(move || Note::Vertex(kept.kept()));
         vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
     }
 
@@ -214,7 +260,9 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         }
         let q = weights.throughput().clamp(0.05, 1.0);
         if q < 1.0 {
-            if trace.sampler.roulette() >= q {
+            let u = trace.sampler.roulette();
+            trace.tell(move || Note::Roulette { u, q });
+            if u >= q {
                 return false;
             }
             weights.survive(q);

@@ -1,0 +1,95 @@
+//! `majorant parts`: an image taken apart.
+
+use super::{Failure, options, print_line, source};
+use majorant_core::estimator::{self, Settings};
+use majorant_core::inspect::{Split, Strategies, StrategyPlan};
+use majorant_core::io::export;
+use majorant_core::transport::Wanted;
+use std::path::PathBuf;
+
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+Every path is traced as for the image, and what it adds is sorted. The parts sum to the image; the shares
+of the variance of one sample, Cov(part, image) / Var(image), sum to one. A share below zero is a part that
+is bright where the others are dark.
+
+--json prints one line: by, spp, and parts with name, mean [r,g,b] and variance_share.")]
+pub(super) struct Arguments {
+    /// A scene file, or the name of an embedded scene.
+    scene: String,
+    /// technique, order, nulls or hero.
+    #[arg(long, value_name = "WHAT", default_value = "technique", value_parser = parse_split)]
+    by: Split,
+    /// Samples per pixel.
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(2..))]
+    spp: u32,
+    /// A directory for a picture of each part, as shown.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// An id that `majorant estimators` lists.
+    #[arg(long, value_name = "ID")]
+    estimator: Option<String>,
+    /// Sets any key of the scene. Repeatable.
+    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
+    set: Vec<String>,
+    /// Print one line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+fn parse_split(text: &str) -> Result<Split, String> {
+    let known: Vec<_> = Split::ALL.iter().map(|split| split.id()).collect();
+    let found = Split::ALL.into_iter().find(|split| split.id() == text);
+    found.ok_or_else(|| format!("`{text}` is none of {}", known.join(", ")))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let id = ("estimator.id", arguments.estimator.as_ref().map(|id| format!("{id:?}")));
+    let source::Frozen { doc, scene } =
+        source::frozen(&arguments.scene, &options::assignments(&arguments.set, &[id]))?;
+    let entry = estimator::find(&doc.estimator.id)
+        .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
+    let settings = Settings::new(&doc.estimator, doc.render.seed);
+    let samples = (0, u64::from(arguments.spp));
+    let plan = StrategyPlan {
+        scene: &scene,
+        kernel: entry.kernel,
+        settings: &settings,
+        split: arguments.by,
+        samples,
+    };
+    let Some(parts) = Strategies::render(&plan, Wanted::ALWAYS) else { return Ok(()) };
+    let shares = parts.variance_shares(|_, _| true);
+    let share = |k: usize| shares.as_ref().map(|s| s[k]);
+    if arguments.json {
+        let list = parts.layers.iter().enumerate().map(|(k, layer)| {
+            serde_json::json!({ "name": layer.name, "mean": layer.whole(), "variance_share": share(k) })
+        });
+        let list: Vec<_> = list.collect();
+        let all = serde_json::json!({ "by": arguments.by.id(), "spp": arguments.spp, "parts": list });
+        print_line(&all.to_string())?;
+    } else {
+        print_line(&format!(
+            "{:<16} {:>10} {:>10} {:>10}  {:>8}",
+            arguments.by.name(),
+            "R",
+            "G",
+            "B",
+            "variance"
+        ))?;
+        for (k, layer) in parts.layers.iter().enumerate() {
+            let [r, g, b] = layer.whole();
+            let share = share(k).map_or("–".to_owned(), |s| format!("{:.1} %", 100.0 * s));
+            print_line(&format!("{:<16} {r:>10.5} {g:>10.5} {b:>10.5}  {share:>8}", layer.name))?;
+        }
+    }
+    let Some(directory) = &arguments.output else { return Ok(()) };
+    std::fs::create_dir_all(directory).map_err(|e| {
+        Failure::Message(format!("{}: {e}; name a place that can be written", directory.display()))
+    })?;
+    for layer in &parts.layers {
+        let path = directory.join(format!("{}.png", layer.name.replace(' ', "-")));
+        export::write_png_of(&path, &layer.mean, [parts.width, parts.height], &doc.view)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,183 @@
+//! `majorant path`: one path of an image, event by event.
+
+use super::{Failure, options, print_line, source};
+use majorant_core::estimator::{self, PathIndex, Settings};
+use majorant_core::inspect::{Ledger, Recording, Row};
+use majorant_core::scene::Scene;
+use majorant_core::spectrum::Carried;
+use majorant_core::transport::Wanted;
+use std::fmt::Write;
+
+#[derive(clap::Args, Debug)]
+#[command(after_help = "\
+The path is traced again with the random numbers that it had: its estimate is the film's, bit by bit.
+Without --sample the brightest of the first --of samples is taken.
+
+Each line is an event, with the random numbers that decided it (u) and, for the hero, what the path
+contributes (f) and how likely unidirectional sampling (p_uni) and next-event estimation (p_nee) make it,
+as they are defined. Where light is added: what is added at each component, and what the balance heuristic
+says that it should be.
+
+--json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components.")]
+pub(super) struct Arguments {
+    /// A scene file, or the name of an embedded scene.
+    scene: String,
+    /// Column and row, from the upper left.
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pixel: (u32, u32),
+    /// Number of the sample within the pixel.
+    #[arg(long, value_name = "N")]
+    sample: Option<u64>,
+    /// Samples among which the brightest is looked for.
+    #[arg(long, value_name = "N", default_value_t = 64, conflicts_with = "sample")]
+    of: u64,
+    /// An id that `majorant estimators` lists.
+    #[arg(long, value_name = "ID")]
+    estimator: Option<String>,
+    /// Sets any key of the scene. Repeatable.
+    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
+    set: Vec<String>,
+    /// Print one line of JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(',');
+    sides
+        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
+        .ok_or_else(|| format!("`{text}` is not a pixel: write COLUMN,ROW, e.g. 64,40"))
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let id = ("estimator.id", arguments.estimator.as_ref().map(|id| format!("{id:?}")));
+    let source::Frozen { doc, scene } =
+        source::frozen(&arguments.scene, &options::assignments(&arguments.set, &[id]))?;
+    let entry = estimator::find(&doc.estimator.id)
+        .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
+    let (x, y) = arguments.pixel;
+    if x >= scene.width || y >= scene.height {
+        let size = format!("{} × {}", scene.width, scene.height);
+        return Err(Failure::Message(format!("pixel {x},{y} is outside of the image of {size}")));
+    }
+    let settings = Settings::new(&doc.estimator, doc.render.seed);
+    let sample =
+        arguments.sample.unwrap_or_else(|| brightest(&scene, entry, &settings, (x, y), arguments.of));
+    let at = PathIndex { x, y, sample };
+    let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+    let ledger = Ledger::new(&recording);
+    if arguments.json {
+        return print_line(&json(&ledger, at, entry.id).to_string());
+    }
+    print_line(&format!("{}, pixel {x} {y}, sample {sample}: {}", entry.name, carried(&ledger.carried)))?;
+    print_line(&format!(
+        "{:>4}  {:<11} {:<24} {:<28} {:<22} {:>11} {:>11} {:>11}",
+        "", "", "", "where", "u", "f", "p_uni", "p_nee"
+    ))?;
+    for (i, row) in ledger.rows.iter().enumerate() {
+        print_line(&line(i, row, ledger.carried.count()))?;
+    }
+    let film = ledger.film;
+    print_line(&format!("on the film: {} {} {} (linear sRGB)", film.x, film.y, film.z))
+}
+
+fn brightest(
+    scene: &Scene,
+    entry: &estimator::Entry,
+    settings: &Settings,
+    (x, y): (u32, u32),
+    of: u64,
+) -> u64 {
+    let brightness = |sample: u64| {
+        let at = PathIndex { x, y, sample };
+        (entry.kernel)(scene, settings, at, Wanted::ALWAYS.into()).rgb.element_sum()
+    };
+    let samples = (0..of.max(1)).map(|sample| (sample, brightness(sample)));
+    samples.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(sample, _)| sample)
+}
+
+fn carried(carried: &Carried) -> String {
+    match carried {
+        Carried::Wavelengths(nm, n) => {
+            let nm: Vec<_> = nm[..*n].iter().map(|nm| format!("{nm:.1}")).collect();
+            format!("wavelengths {} nm, the hero first", nm.join(", "))
+        }
+        Carried::Channels(channels, n) => {
+            let names = ["red", "green", "blue"];
+            let names: Vec<_> = channels[..*n].iter().map(|c| names[*c as usize]).collect();
+            format!("channels {}, the hero first", names.join(", "))
+        }
+        Carried::Grey => "one weight for all, as nothing has a colour".to_owned(),
+    }
+}
+
+fn line(i: usize, row: &Row, count: usize) -> String {
+    let mut text = String::new();
+    let point = row.point.map_or(String::new(), |p| format!("{:.3} {:.3} {:.3}", p.x, p.y, p.z));
+    let numbers: Vec<_> = row.numbers.iter().map(|u| format!("{u:.4}")).collect();
+    // Writing to a string cannot fail.
+    let _ = write!(
+        text,
+        "{i:>4}  {:<11} {:<24} {point:<28} {:<22} {:>11} {:>11} {:>11}",
+        row.branch.name(),
+        row.step.to_string(),
+        numbers.join(" "),
+        row.f[0].to_string(),
+        row.uni[0].to_string(),
+        row.nee[0].to_string(),
+    );
+    if let Some(credit) = &row.credit {
+        let values = |values: &[f32; 4]| {
+            let values: Vec<_> = values[..count].iter().map(|v| format!("{v:.5}")).collect();
+            values.join(" ")
+        };
+        let _ = write!(text, "  {} adds {}", credit.technique.name(), values(&credit.value));
+        if let Some(by_definition) = &credit.by_definition {
+            let _ = write!(text, " (by definition {})", values(by_definition));
+        }
+    }
+    text
+}
+
+fn json(ledger: &Ledger, at: PathIndex, estimator: &str) -> serde_json::Value {
+    let count = ledger.carried.count();
+    let lanes = |values: &[f32; 4]| values[..count].to_vec();
+    let ln = |products: &[majorant_core::inspect::Product; 4]| -> Vec<f64> {
+        products[..count].iter().map(|p| p.ln()).collect()
+    };
+    let rows: Vec<_> = ledger
+        .rows
+        .iter()
+        .map(|row| {
+            serde_json::json!({
+                "branch": row.branch.name(),
+                "event": row.step.to_string(),
+                "point": row.point.map(|p| p.to_array()),
+                "u": row.numbers,
+                "ln_f": ln(&row.f),
+                "ln_p_uni": ln(&row.uni),
+                "ln_p_nee": ln(&row.nee),
+                "kept": row.kept.map(|k| {
+                    k.names.iter().zip(&k.values).map(|(name, v)| (*name, lanes(v))).collect::<Vec<_>>()
+                }),
+                "credit": row.credit.map(|c| serde_json::json!({
+                    "technique": c.technique.name(),
+                    "order": c.order,
+                    "null_collisions": c.nulls,
+                    "value": lanes(&c.value),
+                    "by_definition": c.by_definition.map(|v| lanes(&v)),
+                    "film": c.film.to_array(),
+                })),
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "pixel": [at.x, at.y],
+        "sample": at.sample,
+        "estimator": estimator,
+        "carried": carried(&ledger.carried),
+        "film": ledger.film.to_array(),
+        "sum": ledger.sum,
+        "rows": rows,
+    })
+}

@@ -1,0 +1,79 @@
+//! f, p_uni and p_nee of a path, as they are defined.
+
+use super::product::{Product, Products, times};
+use crate::spectrum::Lanes;
+use crate::transport::Found;
+
+/// What a path contributes and how likely each technique makes it, as products over its events so far.
+#[derive(Clone, Copy)]
+pub(super) struct Books {
+    pub f: Products,
+    pub uni: Products,
+    pub nee: Products,
+    /// Real vertices and null collisions so far.
+    pub order: u32,
+    pub nulls: u32,
+    /// Whether all of it has densities.
+    pub defined: bool,
+}
+
+impl Books {
+    pub const CAMERA: Self = Self {
+        f: [Product::ONE; 4],
+        uni: [Product::ONE; 4],
+        nee: [Product::ONE; 4],
+        order: 0,
+        nulls: 0,
+        defined: true,
+    };
+
+    pub fn pass(&mut self, optical_depth: &Lanes) {
+        for products in [&mut self.f, &mut self.uni, &mut self.nee] {
+            for (product, tau) in products.iter_mut().zip(optical_depth) {
+                *product = product.attenuated(f64::from(*tau));
+            }
+        }
+    }
+
+    pub fn null(&mut self, c: &Found) {
+        self.nulls += 1;
+        times(&mut self.f, &c.null);
+        times(&mut self.uni, &c.null_density);
+        times(&mut self.nee, &c.majorant);
+    }
+
+    pub fn scatter(&mut self, c: &Found) {
+        times(&mut self.f, &c.scattering);
+        times(&mut self.uni, &c.scattering_density);
+    }
+
+    pub fn leave(&mut self, value: f32, density: f32) {
+        self.nee = self.uni;
+        times(&mut self.f, &[value; 4]);
+        times(&mut self.uni, &[density; 4]);
+    }
+
+    pub fn connected(&self, value: f32, walk_density: f32, light_density: f32) -> Self {
+        let mut link = *self;
+        link.nee = self.uni;
+        times(&mut link.f, &[value; 4]);
+        times(&mut link.uni, &[walk_density; 4]);
+        times(&mut link.nee, &[light_density; 4]);
+        link
+    }
+
+    /// Le_j f_j over the mean of the densities, over components and techniques.
+    pub fn worth(&self, emitted: &Lanes, densities: &[&Products], count: usize, grey: bool) -> Option<Lanes> {
+        if !self.defined {
+            return None;
+        }
+        let all = || densities.iter().flat_map(|p| &p[..count]).map(|p| p.ln());
+        let largest = all().fold(f64::NEG_INFINITY, f64::max);
+        let mean = all().map(|ln| (ln - largest).exp()).sum::<f64>() / count as f64;
+        let ln = largest + mean.ln();
+        // Of grey paths one weight counts for all channels of the film.
+        let weight =
+            |i: usize| if i < count || grey { self.f[if grey { 0 } else { i }].over(ln) } else { 0.0 };
+        Some(std::array::from_fn(|i| (f64::from(emitted[i]) * weight(i)) as f32))
+    }
+}

@@ -1,0 +1,335 @@
+//! A path's books: f, p_uni and p_nee event by event, as they are defined.
+//!
+//! They are products over the events of the path (Miller, Georgiev and Jarosz 2019, section 4), kept here apart from the
+//! estimator, in logarithms of double precision, so that what its weights say can be held against their definition:
+//!
+//! ```text
+//!   with the balance heuristics, light adds   Le_j f_j / mean_i (p_uni,i + p_nee,i)
+//! ```
+//!
+//! Beside them stand the numbers that the estimator keeps itself, rescaled or not.
+
+use super::Recording;
+use super::books::Books;
+use super::product::{Product, times};
+use super::step::{Branch, Step};
+use crate::scene::Heuristics;
+use crate::spectrum::{Carried, Lanes};
+use crate::transport::{Event, Found, Kept, Note, Technique};
+use glam::Vec3;
+
+/// Light that is added to the estimate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Credit {
+    /// What has found it.
+    pub technique: Technique,
+    /// Real vertices on the path: 0 for light that the camera sees.
+    pub order: u32,
+    /// Null collisions on the path.
+    pub nulls: u32,
+    /// Emitted radiance.
+    pub emitted: Lanes,
+    /// What the estimator adds, component by component.
+    pub value: Lanes,
+    /// The same as linear sRGB on the film.
+    pub film: Vec3,
+    /// What it should add by the definition of the balance heuristic; `None` for an estimator whose path has no density.
+    pub by_definition: Option<Lanes>,
+}
+
+/// An event of a path, and its books after it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Index of the recording's note.
+    pub note: usize,
+    /// Which part of the path.
+    pub branch: Branch,
+    /// What has happened.
+    pub step: Step,
+    /// Where, if it is anywhere.
+    pub point: Option<Vec3>,
+    /// The random numbers that have decided it.
+    pub numbers: Vec<f32>,
+    /// The medium there.
+    pub found: Option<Found>,
+    /// What the path contributes.
+    pub f: [Product; 4],
+    /// How likely unidirectional sampling makes it.
+    pub uni: [Product; 4],
+    /// How likely next-event estimation makes it, but for the density of the light.
+    pub nee: [Product; 4],
+    /// The numbers that the estimator keeps, as last seen.
+    pub kept: Option<Kept>,
+    /// Light that is added.
+    pub credit: Option<Credit>,
+}
+
+/// A path's events with their books.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ledger {
+    /// What the components are.
+    pub carried: Carried,
+    /// The events, in order.
+    pub rows: Vec<Row>,
+    /// The sum of all that was added.
+    pub sum: Lanes,
+    /// Linear sRGB, as the film has received it.
+    pub film: Vec3,
+}
+
+/// The books of all branches of a path while its notes are read.
+struct Bookkeeper {
+    path: Books,
+    link: Option<Books>,
+    walk: Option<Books>,
+    by_angle: Option<Books>,
+    /// As they were where the path's ray begins.
+    ray: Books,
+    carried: Carried,
+    /// Whether light is shared by the balance heuristics, whose result can be written down.
+    balanced: bool,
+    found: Option<Found>,
+    kept: Option<Kept>,
+    rows: Vec<Row>,
+}
+
+impl Ledger {
+    /// The books of a recorded path.
+    #[must_use]
+    pub fn new(recording: &Recording) -> Self {
+        let mut keeper = Bookkeeper {
+            path: Books::CAMERA,
+            link: None,
+            walk: None,
+            by_angle: None,
+            ray: Books::CAMERA,
+            carried: Carried::Grey,
+            balanced: recording.settings.path.heuristics == Heuristics::default(),
+            found: None,
+            kept: None,
+            rows: Vec::new(),
+        };
+        let (mut sum, mut film) = ([0.0; 4], Vec3::ZERO);
+        for (i, note) in recording.notes.iter().enumerate() {
+            if let Note::End { sum: all, film: rgb } = note {
+                (sum, film) = (*all, *rgb);
+            }
+            keeper.read(i, note);
+        }
+        Self { carried: keeper.carried, rows: keeper.rows, sum, film }
+    }
+
+    /// Light that is added, in order.
+    pub fn credits(&self) -> impl Iterator<Item = &Credit> {
+        self.rows.iter().filter_map(|row| row.credit.as_ref())
+    }
+
+    /// The sum of what is added, formed as the estimator forms it.
+    #[must_use]
+    pub fn added(&self) -> Lanes {
+        let add = |sum: Lanes, entry: &Credit| std::array::from_fn(|i| sum[i] + entry.value[i]);
+        self.credits().fold([0.0; 4], add)
+    }
+}
+
+impl Bookkeeper {
+    fn branch(&self) -> Branch {
+        match (&self.link, &self.walk, &self.by_angle) {
+            (_, _, Some(_)) => Branch::Angle,
+            (Some(_), _, _) => Branch::Connection,
+            (_, Some(_), _) => Branch::LightWalk,
+            _ => Branch::Path,
+        }
+    }
+
+    /// The books of the branch at hand.
+    fn now(&mut self) -> &mut Books {
+        self.link.as_mut().or(self.walk.as_mut()).or(self.by_angle.as_mut()).unwrap_or(&mut self.path)
+    }
+
+    fn row(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
+        let (branch, books) = (self.branch(), *self.now());
+        self.rows.push(Row {
+            note,
+            branch,
+            step,
+            point,
+            numbers: numbers.to_vec(),
+            found: None,
+            f: books.f,
+            uni: books.uni,
+            nee: books.nee,
+            kept: self.kept,
+            credit: None,
+        });
+        let last = self.rows.len() - 1;
+        &mut self.rows[last]
+    }
+
+    fn read(&mut self, i: usize, note: &Note) {
+        match *note {
+            Note::Camera { ray, jitter, u, carried } => {
+                self.carried = carried;
+                self.row(i, Step::Camera, Some(ray.origin), &[jitter.x, jitter.y, u]);
+            }
+            Note::Collision(found, kept) => self.collide(i, found, kept),
+            Note::Exit { passed } => {
+                self.now().pass(&passed);
+                self.row(i, Step::Exit, None, &[]);
+            }
+            Note::Drawn { event, u } => self.drawn(i, event, u),
+            Note::DrawnForAll { event, u, density } => self.drawn_for_all(i, event, u, density),
+            Note::Flight { scattered_at, weight } => {
+                // Its collisions are behind that weight.
+                self.path = Books { defined: false, order: self.path.order, ..self.ray };
+                times(&mut self.path.f, &weight);
+                let step = if scattered_at.is_some() { Step::Scatter } else { Step::Exit };
+                self.row(i, step, scattered_at, &[]);
+            }
+            Note::Surface { point, albedo } => {
+                times(&mut self.now().f, &albedo);
+                self.row(i, Step::Reflect, Some(point), &[]);
+            }
+            Note::Vertex(kept) => {
+                self.path.order += 1;
+                self.kept = Some(kept);
+                if let Some(row) = self.rows.last_mut() {
+                    row.kept = Some(kept);
+                }
+            }
+            Note::Roulette { u, q } => {
+                let survives = u < q;
+                if survives {
+                    times(&mut self.path.f, &[1.0 / q; 4]);
+                }
+                self.row(i, if survives { Step::Survive(q) } else { Step::Die(q) }, None, &[u]);
+            }
+            Note::Leave { ray, u, value, density } => {
+                self.path.leave(value, density);
+                self.ray = self.path;
+                self.row(i, Step::Leave(value, density), Some(ray.origin), &u.to_array());
+            }
+            Note::Connect { ray, value, walk_density, light_density, .. } => {
+                let from = self.by_angle.unwrap_or(self.path);
+                self.link = Some(from.connected(value, walk_density, light_density));
+                let step = Step::Connect(value, walk_density, light_density);
+                self.row(i, step, Some(ray.origin), &[]);
+            }
+            Note::Transmittance { estimate } => {
+                let books = self.now();
+                books.defined = false;
+                times(&mut books.f, &estimate);
+                self.row(i, Step::Transmittance, None, &[]);
+            }
+            Note::Connected { arrives } => {
+                if !arrives {
+                    self.row(i, Step::Dark, None, &[]);
+                    self.link = None;
+                }
+            }
+            Note::LightWalk => self.walk = Some(self.path),
+            Note::LightWalkEnds => self.walk = None,
+            Note::ByAngle => {
+                // From here on there is a third density.
+                self.path.defined = false;
+                self.by_angle = Some(self.path);
+            }
+            Note::ByAngleEnds => (self.by_angle, self.link) = (None, None),
+            Note::Credit { technique, emitted, other_density, value, film } => {
+                self.credit(i, (technique, other_density), emitted, value, film);
+            }
+            Note::End { .. } => {}
+        }
+    }
+
+    fn collide(&mut self, i: usize, found: Found, kept: Kept) {
+        self.kept = Some(kept);
+        self.now().pass(&found.passed);
+        // Connections take every collision as null; walks draw.
+        let connects = matches!(self.branch(), Branch::Connection | Branch::Angle);
+        if connects {
+            self.now().null(&found);
+        }
+        let step = if connects { Step::Null } else { Step::Collision };
+        self.row(i, step, Some(found.point), &[]).found = Some(found);
+        self.found = (!connects).then_some(found);
+    }
+
+    /// The outcome joins the row of its collision.
+    fn drawn(&mut self, i: usize, event: Event, u: f32) {
+        let Some(found) = self.found.take() else { return };
+        match event {
+            Event::Null => self.now().null(&found),
+            Event::Scattering => self.now().scatter(&found),
+            Event::Absorption => {}
+        }
+        self.outcome(i, event, u, found);
+    }
+
+    /// As [`Self::drawn`], with one density for all components: p_uni and p_nee are that, whichever is the hero.
+    fn drawn_for_all(&mut self, i: usize, event: Event, u: f32, density: f32) {
+        let Some(found) = self.found.take() else { return };
+        let books = self.now();
+        let factor = match event {
+            Event::Null => found.null,
+            Event::Scattering => found.scattering,
+            Event::Absorption => [1.0; 4],
+        };
+        books.nulls += u32::from(event == Event::Null);
+        times(&mut books.f, &factor);
+        times(&mut books.uni, &[density; 4]);
+        self.outcome(i, event, u, found);
+    }
+
+    fn outcome(&mut self, note: usize, event: Event, u: f32, found: Found) {
+        let step = match event {
+            Event::Null => Step::Null,
+            Event::Scattering => Step::Scatter,
+            Event::Absorption => Step::Absorb,
+        };
+        // A collision where the medium glows has its light between; else the outcome takes its row.
+        if self.rows.last().is_some_and(|row| row.step == Step::Collision) {
+            self.rows.pop();
+        }
+        self.row(note, step, Some(found.point), &[u]).found = Some(found);
+    }
+
+    fn credit(
+        &mut self,
+        i: usize,
+        (technique, other_density): (Technique, f32),
+        emitted: Lanes,
+        value: Lanes,
+        film: Vec3,
+    ) {
+        let (count, grey) = (self.carried.count(), self.carried == Carried::Grey);
+        let mut books = *self.now();
+        books.defined &= self.balanced;
+        let by_definition = match technique {
+            Technique::Walk => {
+                let mut nee = books.nee;
+                times(&mut nee, &[other_density; 4]);
+                let densities = if other_density > 0.0 { &[&books.uni, &nee][..] } else { &[&books.uni] };
+                books.worth(&emitted, densities, count, grey)
+            }
+            Technique::Connection => {
+                let densities =
+                    if other_density > 0.0 { &[&books.nee, &books.uni][..] } else { &[&books.nee] };
+                books.worth(&emitted, densities, count, grey)
+            }
+            Technique::Glow => self.found.and_then(|found| {
+                times(&mut books.f, &found.absorption);
+                times(&mut books.uni, &found.tentative);
+                books.worth(&emitted, &[&books.uni], count, grey)
+            }),
+            Technique::Angle => None,
+        };
+        let vertices = books.order + u32::from(technique == Technique::Angle);
+        let entry =
+            Credit { technique, order: vertices, nulls: books.nulls, emitted, value, film, by_definition };
+        self.row(i, Step::Credit, None, &[]).credit = Some(entry);
+        if matches!(technique, Technique::Connection | Technique::Angle) {
+            self.link = None;
+        }
+    }
+}

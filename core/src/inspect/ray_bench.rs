@@ -1,0 +1,322 @@
+//! One ray under the estimators of transmittance: what they know, where they look, what they estimate.
+//!
+//! The running estimate at a distance t is the estimate of the same ray cut off at t, made with the same random numbers.
+//! For those that fly from collision to collision that is the product so far; for the others it is what they would have
+//! said of the shorter ray.
+
+use crate::math::{BoxRay, Ray, Sampler};
+use crate::medium::{AnyMedium, Medium};
+use crate::scene::{Mode, Scene};
+use crate::spectrum::{Components, RgbChannels, Sampled, Wavelengths};
+use crate::transmittance::{Analytic, InMedium, Piece, Profile, Shape, TransmittanceKind};
+use crate::transport::Wanted;
+use std::cell::RefCell;
+
+/// What a ray leads through.
+#[derive(Clone, Copy, Debug)]
+pub enum Along<'a> {
+    /// A scene's medium, at one wavelength (nm) or one channel of the film.
+    Medium {
+        /// The frozen scene.
+        scene: &'a Scene,
+        /// In world space.
+        ray: Ray,
+        /// Whether the component is a wavelength or a channel.
+        mode: Mode,
+        /// Nanometres, or 0, 1, 2.
+        component: f32,
+    },
+    /// A shape with a transmittance in closed form.
+    Shape {
+        /// The shape.
+        shape: Shape,
+        /// Its largest optical depth per unit, the ray being one unit long.
+        extinction: f32,
+        /// Cells with a majorant of their own.
+        cells: u32,
+        /// Majorant over the least upper bound.
+        majorant_factor: f32,
+    },
+}
+
+/// What is asked of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BenchPlan {
+    /// The estimator.
+    pub kind: TransmittanceKind,
+    /// How many estimates.
+    pub estimates: u64,
+    /// Selects the random numbers.
+    pub seed: u64,
+    /// Which of the estimates is shown step by step.
+    pub example: u64,
+}
+
+/// A look at the extinction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Distance along the ray, from where the medium begins.
+    pub t: f32,
+    /// The extinction found.
+    pub extinction: f32,
+}
+
+/// A ray on the bench.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayBench {
+    /// From where the medium begins to where it ends.
+    pub length: f32,
+    /// Extinction at even steps: (t, μ).
+    pub extinction: Vec<[f32; 2]>,
+    /// Majorants: from, to, μ̄.
+    pub majorants: Vec<[f32; 3]>,
+    /// Transmittance from the start: (t, T), by quadrature or in closed form.
+    pub transmittance: Vec<[f32; 2]>,
+    /// Where the example has looked, in its own order.
+    pub looks: Vec<Look>,
+    /// The example's running estimate: (t, T).
+    pub running: Vec<[f32; 2]>,
+    /// All estimates.
+    pub estimates: Vec<f32>,
+    /// Their mean, and its standard error.
+    pub mean: [f64; 2],
+    /// Look-ups per estimate.
+    pub lookups: f64,
+}
+
+/// Steps of curves.
+const STEPS: u32 = 512;
+/// Steps of quadrature per step of a curve.
+const FINE: u32 = 8;
+/// Cuts of the running estimate.
+const CUTS: u32 = 192;
+
+/// Of a profile, what is seen of it up to `end`, with a list of the looks.
+struct Watched<'p, P> {
+    profile: &'p P,
+    end: f32,
+    looks: RefCell<Vec<Look>>,
+}
+
+impl<P: Profile<1>> Profile<1> for Watched<'_, P> {
+    type Pieces<'a>
+        = Cut<P::Pieces<'a>>
+    where
+        Self: 'a;
+
+    fn pieces(&self) -> Self::Pieces<'_> {
+        Cut { pieces: self.profile.pieces(), end: self.end }
+    }
+
+    fn extinction(&self, t: f32, piece: &Piece<1>) -> Sampled<1> {
+        let extinction = self.profile.extinction(t, piece);
+        self.looks.borrow_mut().push(Look { t, extinction: extinction.hero() });
+        extinction
+    }
+}
+
+/// Pieces up to an end.
+struct Cut<I> {
+    pieces: I,
+    end: f32,
+}
+
+impl<I: Iterator<Item = Piece<1>>> Iterator for Cut<I> {
+    type Item = Piece<1>;
+
+    fn next(&mut self) -> Option<Piece<1>> {
+        let mut piece = self.pieces.next()?;
+        if piece.segment.t0 >= self.end {
+            return None;
+        }
+        piece.segment.t1 = piece.segment.t1.min(self.end);
+        Some(piece)
+    }
+}
+
+impl RayBench {
+    /// Puts a ray on the bench; `None` if it misses the medium, or was called off.
+    #[must_use]
+    pub fn new(along: &Along<'_>, plan: &BenchPlan, wanted: Wanted<'_>) -> Option<Self> {
+        match *along {
+            Along::Shape { shape, extinction, cells, majorant_factor } => {
+                let profile = Analytic { majorant_factor, ..Analytic::new(shape, [extinction], cells) };
+                let exact = |t: f32| (-f64::from(extinction) * shape.integral(f64::from(t))).exp();
+                Self::of(&profile, 1.0, plan, Some(&exact), wanted)
+            }
+            Along::Medium { scene, ray, mode: Mode::Spectral, component } => {
+                let components = Wavelengths::<1> { lambda_nm: [component], density_per_nm: [1.0] };
+                Self::in_medium(scene, &ray, &components, plan, wanted)
+            }
+            Along::Medium { scene, ray, mode: Mode::Rgb, component } => {
+                let components = RgbChannels::<1> { channel: [(component as usize).min(2)] };
+                Self::in_medium(scene, &ray, &components, plan, wanted)
+            }
+        }
+    }
+
+    fn in_medium<C: Components<1>>(
+        scene: &Scene,
+        ray: &Ray,
+        components: &C,
+        plan: &BenchPlan,
+        wanted: Wanted<'_>,
+    ) -> Option<Self> {
+        match &scene.medium {
+            AnyMedium::Homogeneous(m) => Self::through(m, scene, ray, components, plan, wanted),
+            AnyMedium::DensityGrid(m) => Self::through(m, scene, ray, components, plan, wanted),
+            AnyMedium::RgbGrids(m) => Self::through(m, scene, ray, components, plan, wanted),
+        }
+    }
+
+    fn through<M: Medium, C: Components<1>>(
+        medium: &M,
+        scene: &Scene,
+        ray: &Ray,
+        components: &C,
+        plan: &BenchPlan,
+        wanted: Wanted<'_>,
+    ) -> Option<Self> {
+        let (_, inside) = BoxRay::enter(ray, &scene.medium_from_world, f32::INFINITY)?;
+        let local = medium.local::<1, _>(components);
+        Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, wanted)
+    }
+
+    fn of<P: Profile<1>>(
+        profile: &P,
+        length: f32,
+        plan: &BenchPlan,
+        exact: Option<&dyn Fn(f32) -> f64>,
+        wanted: Wanted<'_>,
+    ) -> Option<Self> {
+        let pieces: Vec<Piece<1>> = profile.pieces().collect();
+        let extinction_at = |t: f32| {
+            let piece = pieces.iter().find(|p| p.segment.t0 <= t && t <= p.segment.t1);
+            piece.map_or(0.0, |piece| profile.extinction(t, piece).hero())
+        };
+        let at = |i: u32| length * i as f32 / STEPS as f32;
+        let extinction: Vec<[f32; 2]> = (0..=STEPS).map(|i| [at(i), extinction_at(at(i))]).collect();
+        let width = f64::from(length) / f64::from(STEPS * FINE);
+        let mut depth = 0.0f64;
+        let mut transmittance = vec![[0.0, 1.0]];
+        for i in 0..STEPS {
+            for k in 0..FINE {
+                let t = at(i) + (f64::from(k) + 0.5) as f32 * width as f32;
+                depth += f64::from(extinction_at(t)) * width;
+            }
+            let value = exact.map_or_else(|| (-depth).exp(), |exact| exact(at(i + 1)));
+            transmittance.push([at(i + 1), value as f32]);
+        }
+
+        let watched = |end: f32| Watched { profile, end, looks: RefCell::default() };
+        let numbers = |which: u64| Sampler::new(plan.seed, which, 0);
+        let example = watched(f32::INFINITY);
+        let _ = plan.kind.estimate(&example, &mut numbers(plan.example));
+        let running = (0..=CUTS).map(|i| {
+            let end = length * i as f32 / CUTS as f32;
+            let estimate = plan.kind.estimate(&watched(end), &mut numbers(plan.example));
+            [end, estimate.weight.hero()]
+        });
+        let running = running.collect();
+
+        let (mut estimates, mut lookups) = (Vec::with_capacity(plan.estimates as usize), 0u64);
+        for which in 0..plan.estimates {
+            let estimate = plan.kind.estimate(profile, &mut numbers(which));
+            estimates.push(estimate.weight.hero());
+            lookups += u64::from(estimate.lookups);
+            if !wanted.yes() {
+                return None;
+            }
+        }
+        let n = (estimates.len() as f64).max(1.0);
+        let mean = estimates.iter().map(|e| f64::from(*e)).sum::<f64>() / n;
+        let variance =
+            estimates.iter().map(|e| (f64::from(*e) - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+        Some(Self {
+            length,
+            extinction,
+            majorants: pieces
+                .iter()
+                .map(|p| [p.segment.t0, p.segment.t1, p.segment.majorant.hero()])
+                .collect(),
+            transmittance,
+            looks: example.looks.into_inner(),
+            running,
+            estimates,
+            mean: [mean, (variance / n).sqrt()],
+            lookups: lookups as f64 / n,
+        })
+    }
+
+    /// The transmittance of the whole ray.
+    #[must_use]
+    pub fn truth(&self) -> f64 {
+        self.transmittance.last().map_or(1.0, |[_, value]| f64::from(*value))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::{Library, embedded, scene_file};
+    use crate::scene::build;
+    use glam::Vec2;
+
+    fn plan(kind: TransmittanceKind) -> BenchPlan {
+        BenchPlan { kind, estimates: 20_000, seed: 5, example: 3 }
+    }
+
+    #[test]
+    fn every_unbiased_estimator_finds_the_truth_in_shapes_and_scenes() {
+        let text = embedded::find("plume-spectral").unwrap().toml;
+        let doc = scene_file::parse(text, "plume").unwrap();
+        let scene = build(&doc, &mut Library::default()).unwrap();
+        let pixel = Vec2::new(scene.width as f32, scene.height as f32) * 0.5;
+        let medium = Along::Medium {
+            scene: &scene,
+            ray: scene.camera.ray(pixel),
+            mode: Mode::Spectral,
+            component: 500.0,
+        };
+        let shapes =
+            Shape::ALL.map(|shape| Along::Shape { shape, extinction: 2.0, cells: 4, majorant_factor: 1.0 });
+        for along in shapes.iter().chain([&medium]) {
+            for kind in TransmittanceKind::all().into_iter().filter(|kind| kind.entry().unbiased) {
+                let bench = RayBench::new(along, &plan(kind), Wanted::ALWAYS).unwrap();
+                let [mean, error] = bench.mean;
+                let off = (mean - bench.truth()).abs();
+                assert!(off < 4.5 * error + 2e-4, "{along:?} {}: {mean} {}", kind.entry().id, bench.truth());
+                // What is shown step by step is one of them, and ends where that does.
+                let (last, whole) = (bench.running.last().unwrap()[1], bench.estimates[3]);
+                assert!(
+                    (last - whole).abs() < 1e-4 * (1.0 + whole.abs()),
+                    "{}: {last} {whole}",
+                    kind.entry().id
+                );
+                assert!((bench.transmittance[0][1], bench.running[0][1]) == (1.0, 1.0));
+            }
+        }
+    }
+
+    #[test]
+    fn an_estimator_by_collisions_goes_down_in_steps_where_it_has_looked() {
+        let along = Along::Shape { shape: Shape::Cosine, extinction: 6.0, cells: 1, majorant_factor: 1.5 };
+        let ratio = TransmittanceKind::find("ratio").unwrap();
+        let bench = RayBench::new(&along, &plan(ratio), Wanted::ALWAYS).unwrap();
+        let mut expected = 1.0;
+        for look in &bench.looks {
+            expected *= 1.0 - look.extinction / 9.0;
+            let after = bench.running.iter().find(|[t, _]| *t > look.t).unwrap()[1];
+            let next = bench.looks.iter().find(|other| other.t > look.t).map_or(1.0, |other| other.t);
+            // Unless the next look is too close to see a step between.
+            if next - look.t > 2.0 / CUTS as f32 {
+                assert!((after - expected).abs() < 1e-5, "{after} {expected}");
+            }
+        }
+        assert!(bench.looks.len() > 2 && (bench.lookups - 9.0).abs() < 0.2, "{}", bench.lookups);
+        let miss = Ray { origin: glam::Vec3::splat(99.0), direction: glam::Vec3::X };
+        let scene = build(&crate::scene::SceneDoc::default(), &mut Library::default()).unwrap();
+        let along = Along::Medium { scene: &scene, ray: miss, mode: Mode::Rgb, component: 0.0 };
+        assert!(RayBench::new(&along, &plan(ratio), Wanted::ALWAYS).is_none());
+    }
+}

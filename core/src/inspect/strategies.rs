@@ -1,0 +1,297 @@
+//! An image taken apart: what each technique, scattering order, number of null collisions or hero has added to it.
+//!
+//! The same paths as the film's are traced, and what each adds is sorted. The layers sum to the image, but for
+//! rounding. With X_k what layer k has of a sample, the share of the variance that is due to it is
+//! Cov(X_k, X) / Var(X), and the shares sum to one.
+
+use crate::estimator::{Kernel, PathIndex, Settings};
+use crate::scene::Scene;
+use crate::spectrum::Carried;
+use crate::transport::{Company, Event, Note, Observer, Technique, Wanted};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// By what an image is taken apart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Split {
+    /// What has found the light.
+    #[default]
+    Technique,
+    /// Scattering and reflection: how often.
+    Order,
+    /// Null collisions on the path: how many.
+    Nulls,
+    /// The component that has drawn the path.
+    Hero,
+}
+
+/// Bins of wavelengths, and where they begin; what lies outside is in the first or last.
+const HERO_BINS: usize = 8;
+const HERO_NM: Range<f32> = 400.0..720.0;
+/// Orders up to here have layers of their own.
+const ORDERS: usize = 8;
+
+impl Split {
+    /// All, in the order of pickers.
+    pub const ALL: [Self; 4] = [Self::Technique, Self::Order, Self::Nulls, Self::Hero];
+
+    /// Stable id, for the command line.
+    #[must_use]
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Technique => "technique",
+            Self::Order => "order",
+            Self::Nulls => "nulls",
+            Self::Hero => "hero",
+        }
+    }
+
+    /// Name for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Technique => "technique",
+            Self::Order => "scattering order",
+            Self::Nulls => "null collisions",
+            Self::Hero => "hero",
+        }
+    }
+
+    /// Names of its layers, of which an image may leave some empty.
+    #[must_use]
+    pub fn layers(self) -> Vec<String> {
+        match self {
+            Self::Technique => Technique::ALL.iter().map(|t| t.name().to_owned()).collect(),
+            Self::Order => (0..ORDERS).map(|k| k.to_string()).chain([format!("{ORDERS} and more")]).collect(),
+            Self::Nulls => {
+                ["0", "1", "2", "3–4", "5–8", "9–16", "17–32", "33 and more"].map(Into::into).into()
+            }
+            Self::Hero => {
+                let width = (HERO_NM.end - HERO_NM.start) / HERO_BINS as f32;
+                let bin = |i: usize| HERO_NM.start + width * i as f32;
+                let nm = (0..HERO_BINS).map(|i| format!("{:.0}–{:.0} nm", bin(i), bin(i + 1)));
+                nm.chain(["red", "green", "blue", "all alike"].map(Into::into)).collect()
+            }
+        }
+    }
+}
+
+/// Sorts what one path adds.
+struct Sorter {
+    split: Split,
+    hero: usize,
+    order: usize,
+    nulls: u32,
+    /// Null collisions of a connection, or of a walk of its own, while there is one.
+    aside: Option<u32>,
+    /// Whether that draws its events; a connection takes all collisions as null.
+    draws: bool,
+    by_angle: bool,
+    layers: Vec<DVec3>,
+}
+
+impl Sorter {
+    fn new(split: Split) -> Self {
+        let layers = vec![DVec3::ZERO; split.layers().len()];
+        Self { split, hero: 0, order: 0, nulls: 0, aside: None, draws: false, by_angle: false, layers }
+    }
+
+    /// Forgets the last path.
+    fn clear(&mut self) {
+        (self.order, self.nulls, self.aside, self.by_angle) = (0, 0, None, false);
+        self.layers.fill(DVec3::ZERO);
+    }
+
+    fn is_null(&mut self) {
+        *self.aside.as_mut().unwrap_or(&mut self.nulls) += 1;
+    }
+
+    fn layer(&self, technique: Technique) -> usize {
+        match self.split {
+            Split::Technique => technique as usize,
+            Split::Order => (self.order + usize::from(technique == Technique::Angle)).min(ORDERS),
+            Split::Nulls => match self.nulls + self.aside.unwrap_or(0) {
+                n @ 0..=2 => n as usize,
+                n @ 3..=32 => (n - 1).ilog2() as usize + 2,
+                _ => 7,
+            },
+            Split::Hero => self.hero,
+        }
+    }
+}
+
+impl Observer for Sorter {
+    fn note(&mut self, note: &Note) {
+        match note {
+            Note::Camera { carried, .. } => {
+                self.hero = match carried {
+                    Carried::Wavelengths(nm, _) => {
+                        let share = (nm[0] - HERO_NM.start) / (HERO_NM.end - HERO_NM.start);
+                        (share * HERO_BINS as f32).clamp(0.0, HERO_BINS as f32 - 1.0) as usize
+                    }
+                    Carried::Channels(channels, _) => HERO_BINS + channels[0] as usize,
+                    Carried::Grey => HERO_BINS + 3,
+                };
+            }
+            Note::Collision(..) if self.aside.is_some() && !self.draws => self.is_null(),
+            Note::Drawn { event: Event::Null, .. } | Note::DrawnForAll { event: Event::Null, .. } => {
+                self.is_null();
+            }
+            Note::Vertex(_) => self.order += 1,
+            Note::Connect { .. } if !self.by_angle => (self.aside, self.draws) = (Some(0), false),
+            Note::ByAngle => (self.by_angle, self.aside, self.draws) = (true, Some(0), false),
+            Note::LightWalk => (self.aside, self.draws) = (Some(0), true),
+            Note::Connected { arrives: false } if !self.by_angle => self.aside = None,
+            Note::LightWalkEnds => self.aside = None,
+            Note::ByAngleEnds => (self.by_angle, self.aside) = (false, None),
+            Note::Credit { technique, film, .. } => {
+                let layer = self.layer(*technique);
+                self.layers[layer] += film.as_dvec3();
+                if *technique == Technique::Connection {
+                    self.aside = None;
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Which paths are sorted, and how.
+#[derive(Clone, Copy)]
+pub struct StrategyPlan<'a> {
+    /// The frozen scene.
+    pub scene: &'a Scene,
+    /// The estimator's.
+    pub kernel: Kernel,
+    /// What the paths are traced with.
+    pub settings: &'a Settings,
+    /// By what they are sorted.
+    pub split: Split,
+    /// The first sample of every pixel, and the one after the last.
+    pub samples: (u64, u64),
+}
+
+/// One part of an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Name for people.
+    pub name: String,
+    /// Mean linear sRGB, row by row from the top.
+    pub mean: Vec<[f32; 3]>,
+    /// Cov(X_k, X) of one sample, summed over channels, pixel by pixel.
+    pub covariance: Vec<f32>,
+}
+
+impl Layer {
+    /// Mean over the image.
+    #[must_use]
+    pub fn whole(&self) -> [f64; 3] {
+        let sum = self.mean.iter().fold(DVec3::ZERO, |sum, p| sum + Vec3::from_array(*p).as_dvec3());
+        (sum / self.mean.len().max(1) as f64).to_array()
+    }
+}
+
+/// An image taken apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strategies {
+    /// By what.
+    pub split: Split,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Layers that are not black everywhere.
+    pub layers: Vec<Layer>,
+}
+
+/// Sums over the samples of a pixel: of every layer, and of its product with all of them, summed over channels.
+struct Sums {
+    layers: Vec<DVec3>,
+    products: Vec<f64>,
+}
+
+impl Strategies {
+    /// Traces and sorts some samples of every pixel; `None` if it was called off.
+    #[must_use]
+    pub fn render(plan: &StrategyPlan<'_>, wanted: Wanted<'_>) -> Option<Self> {
+        let (width, height) = (plan.scene.width as usize, plan.scene.height as usize);
+        let rows: Option<Vec<Vec<Sums>>> =
+            (0..height).into_par_iter().map(|y| Self::row(plan, y as u32, width as u32, wanted)).collect();
+        let (first, end) = plan.samples;
+        let n = (end - first).max(1) as f64;
+        let pixels: Vec<Sums> = rows?.into_iter().flatten().collect();
+        let layers = plan.split.layers().into_iter().enumerate().map(|(k, name)| Layer {
+            name,
+            mean: pixels.iter().map(|p| (p.layers[k] / n).as_vec3().to_array()).collect(),
+            covariance: pixels.iter().map(|p| p.covariance(k, n) as f32).collect(),
+        });
+        let seen = |layer: &Layer| layer.mean.iter().any(|p| *p != [0.0; 3]);
+        Some(Self {
+            split: plan.split,
+            width,
+            height,
+            spp: (end - first) as u32,
+            layers: layers.filter(seen).collect(),
+        })
+    }
+
+    fn row(plan: &StrategyPlan<'_>, y: u32, width: u32, wanted: Wanted<'_>) -> Option<Vec<Sums>> {
+        let mut sorter = Sorter::new(plan.split);
+        let mut row = Vec::with_capacity(width as usize);
+        for x in 0..width {
+            let mut sums = Sums {
+                layers: vec![DVec3::ZERO; sorter.layers.len()],
+                products: vec![0.0; sorter.layers.len()],
+            };
+            for sample in plan.samples.0..plan.samples.1 {
+                sorter.clear();
+                let company = Company::observed(wanted, &mut sorter);
+                let estimate = (plan.kernel)(plan.scene, plan.settings, PathIndex { x, y, sample }, company);
+                // Asked after each path: the estimate of an unwanted one must not be kept.
+                if !wanted.yes() {
+                    return None;
+                }
+                if estimate.rgb.is_finite() {
+                    sums.add(&sorter.layers);
+                }
+            }
+            row.push(sums);
+        }
+        Some(row)
+    }
+
+    /// The share of each layer in the variance of one sample, over some of the pixels; they sum to one. `None` where
+    /// there is no variance.
+    #[must_use]
+    pub fn variance_shares(&self, pixels: impl Fn(usize, usize) -> bool) -> Option<Vec<f64>> {
+        let inside = |i: usize| pixels(i % self.width, i / self.width);
+        let sums: Vec<f64> = self
+            .layers
+            .iter()
+            .map(|l| {
+                l.covariance.iter().enumerate().filter(|(i, _)| inside(*i)).map(|(_, c)| f64::from(*c)).sum()
+            })
+            .collect();
+        let total: f64 = sums.iter().sum();
+        (total > 0.0).then(|| sums.iter().map(|s| s / total).collect())
+    }
+}
+
+impl Sums {
+    fn add(&mut self, layers: &[DVec3]) {
+        let all: DVec3 = layers.iter().sum();
+        for ((sum, product), layer) in self.layers.iter_mut().zip(&mut self.products).zip(layers) {
+            *sum += *layer;
+            *product += layer.dot(all);
+        }
+    }
+
+    /// Cov(X_k, X) of one sample, summed over channels.
+    fn covariance(&self, k: usize, n: f64) -> f64 {
+        let all: DVec3 = self.layers.iter().sum();
+        (self.products[k] - self.layers[k].dot(all) / n) / (n - 1.0).max(1.0)
+    }
+}

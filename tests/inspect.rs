@@ -1,0 +1,179 @@
+//! Paths taken apart: the books of a path give its sample bit by bit, and what estimators keep agrees with the
+//! definition of f and p; the parts of an image sum to it.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use majorant_core::estimator::{PathIndex, REGISTRY, Settings};
+use majorant_core::inspect::{Ledger, Recording, Split, Strategies, StrategyPlan};
+use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::math::Sampler;
+use majorant_core::scene::{
+    Absorption, Bookkeeping, DistanceSampling, EmissionDoc, GridRef, LightWalk, Mode, Scene, SceneDoc,
+    WhenExceeded, build,
+};
+use majorant_core::session::ViewId;
+use majorant_core::transport::Wanted;
+use majorant_tests::session::{Watched, job};
+
+/// Scenes in which paths meet everything: colours, grids, grey, surfaces, a glow, a majorant that is exceeded.
+fn scenes() -> Vec<(String, SceneDoc)> {
+    let mut scenes: Vec<_> = embedded::SCENES
+        .iter()
+        .map(|s| (s.name.to_owned(), scene_file::parse(s.toml, s.name).unwrap()))
+        .collect();
+    let plume = scenes.iter().find(|(name, _)| name.contains("plume")).unwrap().1.clone();
+    let mut vary = |name: &str, change: &dyn Fn(&mut SceneDoc)| {
+        let mut doc = plume.clone();
+        change(&mut doc);
+        scenes.push((name.to_owned(), doc));
+    };
+    vary("rgb, analogue, walks apart", &|doc| {
+        doc.estimator.mode = Mode::Rgb;
+        doc.estimator.absorption = Absorption::Analogue;
+        doc.estimator.light_walk = LightWalk::Separate;
+    });
+    vary("exceeded", &|doc| {
+        doc.medium.majorant.factor = 0.6;
+        doc.medium.majorant.when_exceeded = WhenExceeded::Weighted;
+        doc.estimator.roulette_depth = Some(2);
+    });
+    vary("glowing, decomposed", &|doc| {
+        let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
+        doc.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+        doc.estimator.distances = DistanceSampling::Decomposition;
+        doc.estimator.bookkeeping = Bookkeeping::Pairwise;
+    });
+    for (_, doc) in &mut scenes {
+        (doc.film.width, doc.film.height) = (64, 48);
+    }
+    scenes
+}
+
+fn frozen(doc: &SceneDoc) -> Scene {
+    build(doc, &mut Library::default()).unwrap()
+}
+
+/// A thousand random paths per estimator and scene: the same bits with somebody looking on as without, the sum of the
+/// ledger is the path's, and every entry is what the densities say that it should be.
+#[test]
+fn the_ledger_gives_the_sample_bit_by_bit() {
+    let (mut defined, mut entries) = ([0u32; 16], 0u32);
+    for (name, doc) in scenes() {
+        let scene = frozen(&doc);
+        let settings = Settings::new(&doc.estimator, doc.render.seed);
+        for (which, entry) in REGISTRY.iter().enumerate() {
+            let mut random = Sampler::new(17, which as u64, 0);
+            for _ in 0..1000 {
+                let place = random.next_2d();
+                let (x, y) = ((place.x * 64.0) as u32, (place.y * 48.0) as u32);
+                let at = PathIndex { x, y, sample: u64::from((random.next_1d() * 64.0) as u32) };
+                let alone = (entry.kernel)(&scene, &settings, at, Wanted::ALWAYS.into());
+                let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+                let bits = |rgb: [f32; 3]| rgb.map(f32::to_bits);
+                let what = format!("{name}, {}, {at:?}", entry.id);
+                assert_eq!(
+                    bits(recording.estimate.rgb.to_array()),
+                    bits(alone.rgb.to_array()),
+                    "observed: {what}"
+                );
+                assert_eq!(recording.estimate.lookups, alone.lookups, "{what}");
+                let ledger = Ledger::new(&recording);
+                assert_eq!(bits(ledger.film.to_array()), bits(alone.rgb.to_array()), "film: {what}");
+                assert_eq!(ledger.added().map(f32::to_bits), ledger.sum.map(f32::to_bits), "sum: {what}");
+                for credit in ledger.credits() {
+                    entries += 1;
+                    let Some(by_definition) = credit.by_definition else { continue };
+                    defined[which] += 1;
+                    let largest = credit.value.iter().fold(0.0f32, |l, v| l.max(v.abs()));
+                    for (value, defined) in credit.value.iter().zip(by_definition) {
+                        let tolerance = 2e-3 * value.abs() + 1e-5 * largest + 1e-30;
+                        assert!((value - defined).abs() <= tolerance, "{what}: {credit:?}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(entries > 20_000, "{entries}");
+    // Paths that a vertex by angle could have made have a third density, which is not written down here.
+    for (entry, defined) in REGISTRY.iter().zip(defined) {
+        let has = entry.id != "mitsuba2-volpath";
+        assert_eq!(defined > 1500, has, "{}: {defined}", entry.id);
+    }
+}
+
+/// What the film holds after one sample of every pixel is what the ledgers of its paths say.
+#[test]
+fn the_film_holds_what_the_ledgers_say() {
+    let (_, mut doc) = scenes().remove(0);
+    doc.render.spp = Some(1);
+    for entry in REGISTRY {
+        doc.estimator.id = entry.id.into();
+        let session = Watched::new();
+        session.submit(ViewId(0), job(&doc, false));
+        let film = session.wait_finished(ViewId(0));
+        let probe = session.state(ViewId(0)).probe.unwrap();
+        for (i, mean) in film.mean.iter().enumerate() {
+            let at = PathIndex { x: (i % 64) as u32, y: (i / 64) as u32, sample: 0 };
+            let ledger = Ledger::new(&probe.record(at, Wanted::ALWAYS));
+            assert_eq!(ledger.film.to_array(), *mean, "{} {at:?}", entry.id);
+        }
+    }
+}
+
+/// However an image is taken apart, the parts sum to it, and their shares of its variance to one.
+#[test]
+fn the_parts_of_an_image_sum_to_it() {
+    for (name, mut doc) in scenes() {
+        (doc.film.width, doc.film.height) = (16, 12);
+        let scene = frozen(&doc);
+        let settings = Settings::new(&doc.estimator, 3);
+        for entry in REGISTRY {
+            let kernel = entry.kernel;
+            let image: Vec<[f64; 3]> = (0..16 * 12)
+                .map(|i| {
+                    let paths = (0..8).map(|sample| PathIndex { x: i % 16, y: i / 16, sample });
+                    let sum = paths
+                        .map(|at| kernel(&scene, &settings, at, Wanted::ALWAYS.into()).rgb.as_dvec3())
+                        .sum::<glam::DVec3>();
+                    (sum / 8.0).to_array()
+                })
+                .collect();
+            for split in Split::ALL {
+                let plan =
+                    StrategyPlan { scene: &scene, kernel, settings: &settings, split, samples: (0, 8) };
+                let parts = Strategies::render(&plan, Wanted::ALWAYS).unwrap();
+                for (i, whole) in image.iter().enumerate() {
+                    for (c, channel) in whole.iter().enumerate() {
+                        let sum: f64 = parts.layers.iter().map(|l| f64::from(l.mean[i][c])).sum();
+                        let size: f64 = parts.layers.iter().map(|l| f64::from(l.mean[i][c]).abs()).sum();
+                        let what = format!("{name}, {}, by {}", entry.id, split.name());
+                        assert!((sum - channel).abs() <= 1e-5 * size + 1e-12, "{what}: {sum} {channel}");
+                    }
+                }
+                let shares = parts.variance_shares(|_, _| true).unwrap();
+                assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-6, "{shares:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_are_named_by_how_they_came_about() {
+    let (_, mut doc) = scenes().into_iter().find(|(name, _)| name.contains("plume")).unwrap();
+    doc.estimator.max_depth = Some(2);
+    (doc.film.width, doc.film.height) = (16, 12);
+    let scene = frozen(&doc);
+    let settings = Settings::new(&doc.estimator, 3);
+    let names = |id: &str, split| -> Vec<String> {
+        let kernel = majorant_core::estimator::find(id).unwrap().kernel;
+        let plan = StrategyPlan { scene: &scene, kernel, settings: &settings, split, samples: (0, 64) };
+        let parts = Strategies::render(&plan, Wanted::ALWAYS).unwrap();
+        parts.layers.into_iter().map(|l| l.name).collect()
+    };
+    assert_eq!(names("uni-nee-mis", Split::Order), ["0", "1"]);
+    assert_eq!(names("spectral-mis", Split::Technique), ["unidirectional"]);
+    assert_eq!(names("uni-nee-mis", Split::Technique), ["unidirectional", "next-event"]);
+    assert!(names("equiangular-mis", Split::Technique).contains(&"next-event".to_owned()));
+    assert!(names("nee", Split::Nulls).len() > 3);
+    let heroes = names("independent", Split::Hero);
+    assert!(heroes.len() >= 8 && heroes.iter().all(|name| name.ends_with("nm")), "{heroes:?}");
+}
