@@ -26,17 +26,14 @@ impl Film {
     /// An empty film.
     #[must_use]
     pub fn new(width: usize, height: usize) -> Self {
-        Self { width, height, pixels: vec![Pixel::default(); width * height] }
+        // All zeros, which the system clears page by page when they are first touched.
+        Self { width, height, pixels: bytemuck::zeroed_vec(width * height) }
     }
 
-    /// An empty film, in the memory of this one if that has the size: memory that is new to the process costs several
-    /// times what clearing it does.
+    /// A film in the memory of this one, if that has the size: memory that is new to the process costs more than clearing
+    /// it does, and for a large film neither should happen in one go. Whoever adds sample 0 begins its rows anew.
     #[must_use]
-    pub fn renewed(mut self, width: usize, height: usize) -> Self {
-        if (self.width, self.height) != (width, height) {
-            return Self::new(width, height);
-        }
-        self.pixels.fill(Pixel::default());
-        self
+    pub fn reused(self, width: usize, height: usize) -> Self {
+        if (self.width, self.height) == (width, height) { self } else { Self::new(width, height) }
     }
 }

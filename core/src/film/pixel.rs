@@ -6,7 +6,7 @@
 /// Grey is the mean of the three channels, chroma what is perpendicular to it: in the orthonormal opponent
 /// basis (R+G+B)/√3, (R−G)/√2, (R+G−2B)/√6 the squared deviations of the first and of the other two add up
 /// to those of R, G and B.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Zeroable)]
 pub struct Pixel {
     /// Samples added.
     pub count: u32,

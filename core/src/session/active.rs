@@ -184,7 +184,7 @@ impl Active {
 
     /// Gives it its film, in the memory of another if possible.
     pub fn load(&mut self, film: Film) {
-        self.film = film.renewed(self.probe.scene.width as usize, self.probe.scene.height as usize);
+        self.film = film.reused(self.probe.scene.width as usize, self.probe.scene.height as usize);
     }
 
     /// Runs one pass of at most `most` samples; false if it was cancelled, which leaves the view unusable.
