@@ -61,6 +61,8 @@ pub enum Command {
     ToggleBoxTool,
     /// Shows or hides the numbers.
     ToggleDock,
+    /// Shows the samples of a pixel.
+    Pick([usize; 2]),
     /// Shows numbers of this kind.
     ShowTab(&'static str),
     /// Opens a comparison that is set up already, by its name.

@@ -18,6 +18,11 @@ use std::time::Duration;
 const SETTLED_SECONDS: f64 = 0.25;
 
 impl LabApp {
+    /// Whether numbers are shown below the pictures that there are.
+    fn dock_shown(&mut self) -> &mut bool {
+        if self.doc().view_count() > 1 { &mut self.settings.dock } else { &mut self.settings.dock_alone }
+    }
+
     /// Takes note of everything that happened since the last frame.
     pub(super) fn update(&mut self, ctx: &Context) {
         let prints = self.developer.take();
@@ -161,13 +166,17 @@ impl LabApp {
             Command::ToggleBoxTool => {
                 self.wall.tool = if self.wall.tool == Tool::Region { Tool::Camera } else { Tool::Region };
             }
-            Command::ToggleDock => self.settings.dock ^= true,
+            Command::ToggleDock => *self.dock_shown() ^= true,
+            Command::Pick(pixel) => self.wall.picked = Some(pixel),
             Command::ShowMajorants(slice) => self.settings.majorant_slice = slice,
             Command::ToggleMajorants => {
                 let shown = self.settings.majorant_slice.is_some();
                 self.settings.majorant_slice = (!shown).then_some(0.5);
             }
-            Command::ShowTab(id) => (self.settings.tab, self.settings.dock) = (id.to_owned(), true),
+            Command::ShowTab(id) => {
+                self.settings.tab = id.to_owned();
+                *self.dock_shown() = true;
+            }
             Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
             Command::ToggleLargeType => {
                 let large = !self.settings.large_type;

@@ -22,6 +22,11 @@ impl LabApp {
             });
             ui.menu_button("View", |ui| self.view_ui(ui, commands));
             ui.menu_button("Compare", |ui| self.compare_ui(ui, commands));
+            ui.menu_button("Inspect", |ui| {
+                for tab in crate::wall::dock::TABS.iter().filter(|tab| tab.for_one_view()) {
+                    item(ui, tab.title(), Command::ShowTab(tab.id()), commands);
+                }
+            });
             ui.menu_button("Help", |ui| {
                 item(ui, "Keys and gestures", Command::ToggleShortcuts, commands);
                 item(ui, "Self-check…", Command::OpenSelfCheck, commands);

@@ -43,6 +43,7 @@ use crate::screenshot::Screenshot;
 use crate::theme;
 use crate::view::developer::{Bell, Developer, Sight};
 use crate::wall::Wall;
+use crate::wall::inspector::Inspector;
 use dialogs::Dialog;
 use majorant_core::film::Snapshot;
 use majorant_core::io::Library;
@@ -77,6 +78,7 @@ pub struct LabApp {
     shortcuts_open: bool,
     self_check: SelfCheck,
     factor_curve: FactorCurve,
+    inspector: Inspector,
     /// Since when the scene is being built, if it is.
     building_since: Option<Instant>,
     tasks: Tasks,
@@ -148,6 +150,7 @@ impl LabApp {
             shortcuts_open: false,
             self_check: SelfCheck::default(),
             factor_curve: FactorCurve::default(),
+            inspector: Inspector::default(),
             building_since: None,
             tasks: Tasks::new(move || repaint.request_repaint()),
             grids: GridLists::default(),

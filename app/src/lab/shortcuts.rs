@@ -76,6 +76,11 @@ pub const KEYS: &[Shortcut] = &[
         command: || Command::ToggleDock,
     },
     Shortcut {
+        keys: key(Modifiers::NONE, Key::I),
+        text: "Replay the paths of a pixel",
+        command: || Command::ShowTab("path"),
+    },
+    Shortcut {
         keys: key(Modifiers::NONE, Key::M),
         text: "Show or hide the majorant's cells",
         command: || Command::ToggleMajorants,

@@ -104,7 +104,7 @@ impl LabApp {
         commands: &mut Vec<Command>,
     ) -> Option<(usize, CameraDoc)> {
         let palette = Palette::get(ui);
-        let dock = self.settings.dock && doc.view_count() > 1;
+        let dock = if doc.view_count() > 1 { self.settings.dock } else { self.settings.dock_alone };
         let bar = Frame::NONE.fill(palette.header).inner_margin(Margin::symmetric(8, 4));
         Panel::top("wall-bar").frame(bar).resizable(false).show(ui, |ui| {
             self.wall.bar_ui(ui, doc, dock, commands);
@@ -116,7 +116,7 @@ impl LabApp {
             panel.default_size(0.37 * room).size_range(110.0..=(0.7 * room).max(120.0)).show(ui, |ui| {
                 // The panel keeps its height whatever its tab holds.
                 ui.set_min_height(ui.available_height());
-                let mut cx = dock::Cx { wall: &self.wall, doc, commands };
+                let mut cx = dock::Cx { wall: &self.wall, doc, inspector: &mut self.inspector, commands };
                 dock::dock_ui(ui, &self.settings.tab, &mut cx);
             });
         }

@@ -21,6 +21,8 @@ pub struct Settings {
     pub majorant_slice: Option<f32>,
     /// Whether numbers are shown below the pictures, once there are several.
     pub dock: bool,
+    /// Whether they are shown below a single picture.
+    pub dock_alone: bool,
     /// Which numbers.
     pub tab: String,
     /// Larger type, for projectors.
@@ -37,6 +39,7 @@ impl Default for Settings {
             log_lobe: false,
             majorant_slice: None,
             dock: true,
+            dock_alone: false,
             tab: "ranking".into(),
             large_type: false,
         }

@@ -13,7 +13,8 @@
 //! | `reference.rs` | what errors are measured against |
 //! | `analyst.rs` | the numbers |
 //! | `bar.rs`, `cells.rs`, `caption.rs`, `legend.rs` | what is seen of it |
-//! | `dock/` | ranking, curves, the samples of a pixel, a scanline; one tab a file |
+//! | `dock/` | ranking, curves, the samples of a pixel, a scanline, a path, an image's parts; one tab a file |
+//! | `inspector.rs`, `errand.rs` | what tabs about single paths hold, and the threads that work it out |
 
 pub mod analyst;
 mod bar;
@@ -21,6 +22,8 @@ mod caption;
 mod cells;
 pub mod dock;
 mod edit;
+mod errand;
+pub mod inspector;
 mod legend;
 pub mod presets;
 mod reference;

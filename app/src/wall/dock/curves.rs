@@ -20,7 +20,7 @@ impl Tab for Curves {
     fn title(&self) -> &'static str {
         "Error curves"
     }
-    fn csv(&self, cx: &Cx<'_>) -> Option<String> {
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let analysis = cx.wall.analysis();
         let measure = analysis.measure?;
         let mut text = format!("view,spp,cpu_seconds,lookups_per_pixel,{},error\n", measure.id);

@@ -1,11 +1,15 @@
 //! Numbers below the pictures. A file and a line in [`TABS`] add a tab.
 
 mod curves;
+mod parts;
+mod path;
 mod pixel;
 mod plots;
 mod ranking;
+mod ray;
 mod scanline;
 
+use super::inspector::Inspector;
 use super::state::Wall;
 use crate::lab::Command;
 use crate::theme::Palette;
@@ -18,6 +22,8 @@ pub struct Cx<'a> {
     pub wall: &'a Wall,
     /// The document.
     pub doc: &'a SceneDoc,
+    /// What tabs hold from frame to frame.
+    pub inspector: &'a mut Inspector,
     /// What it asks for.
     pub commands: &'a mut Vec<Command>,
 }
@@ -31,21 +37,35 @@ pub trait Tab: Sync {
     /// Its content.
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
     /// The same as text, for a spreadsheet; none if there is nothing yet. Asked for on a click only.
-    fn csv(&self, cx: &Cx<'_>) -> Option<String>;
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String>;
+    /// Whether it says something about a single view; the others compare.
+    fn for_one_view(&self) -> bool {
+        false
+    }
 }
 
 /// Every tab, from left to right.
-pub const TABS: &[&dyn Tab] = &[&ranking::Ranking, &curves::Curves, &pixel::Pixel, &scanline::Scanline];
+pub const TABS: &[&dyn Tab] = &[
+    &ranking::Ranking,
+    &curves::Curves,
+    &pixel::Pixel,
+    &scanline::Scanline,
+    &path::Path,
+    &ray::Ray,
+    &parts::Parts,
+];
 
 /// Draws the dock; `chosen` is the id of its tab.
 pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
     let palette = Palette::get(ui);
-    let tab = TABS.iter().find(|t| t.id() == chosen).unwrap_or(&TABS[0]);
+    let several = cx.doc.view_count() > 1;
+    let offered: Vec<_> = TABS.iter().filter(|t| several || t.for_one_view()).collect();
+    let Some(tab) = offered.iter().find(|t| t.id() == chosen).or(offered.first()) else { return };
     Frame::NONE.fill(palette.bar).inner_margin(Margin::symmetric(8, 3)).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            for t in TABS {
+            for t in &offered {
                 let on = t.id() == tab.id();
                 let text =
                     RichText::new(t.title()).small().color(if on { palette.strong } else { palette.text });

@@ -25,7 +25,10 @@ impl Tab for Pixel {
     fn title(&self) -> &'static str {
         "Pixel"
     }
-    fn csv(&self, cx: &Cx<'_>) -> Option<String> {
+    fn for_one_view(&self) -> bool {
+        true
+    }
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let (at, views) = cx.wall.analysis().pixel.clone()?;
         let mut text = String::from("view,x,y,sample,r,g,b,lookups\n");
         for view in &views {

@@ -41,7 +41,7 @@ impl Tab for Ranking {
     fn title(&self) -> &'static str {
         "Ranking"
     }
-    fn csv(&self, cx: &Cx<'_>) -> Option<String> {
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let standings = &cx.wall.analysis().standings;
         let mut text = String::from(
             "view,estimator,spp,cpu_seconds,lookups_per_path,relmse,variance,chroma_variance,efficiency,speedup,speedup_low,speedup_high,bias_z,p,verdict\n",

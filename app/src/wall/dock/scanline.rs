@@ -58,7 +58,10 @@ impl Tab for Scanline {
     fn title(&self) -> &'static str {
         "Scanline"
     }
-    fn csv(&self, cx: &Cx<'_>) -> Option<String> {
+    fn for_one_view(&self) -> bool {
+        true
+    }
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let rows = rows(cx);
         let mut text = String::from("view,y,x,grey,standard_error\n");
         for line in &rows {

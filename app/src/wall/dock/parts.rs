@@ -1,0 +1,177 @@
+//! The selected view's image taken apart: by technique, scattering order, null collisions or hero.
+//!
+//! The parts are traced aside, with the first samples of every pixel; they sum to the image of those.
+
+use super::{Cx, Tab, empty};
+use crate::theme::Palette;
+use crate::wall::inspector::PartsQuestion;
+use egui::{Button, ColorImage, ComboBox, Image, RichText, ScrollArea, TextureOptions, Ui, vec2};
+use majorant_core::film::display::DisplayTransform;
+use majorant_core::inspect::{Split, Strategies};
+use majorant_core::scene::ViewDoc;
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// See the [module](self).
+pub struct Parts;
+
+/// Samples per pixel that are taken apart: enough to tell who makes the noise.
+const SPP: [u64; 4] = [4, 16, 64, 256];
+/// Seconds that each part is shown while they run one after another.
+const EACH: f64 = 0.7;
+
+impl Tab for Parts {
+    fn id(&self) -> &'static str {
+        "parts"
+    }
+
+    fn title(&self) -> &'static str {
+        "Parts"
+    }
+
+    fn for_one_view(&self) -> bool {
+        true
+    }
+
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
+        let parts = cx.inspector.parts.hung_of.clone()?;
+        let shares = parts.variance_shares(|_, _| true);
+        let mut text = String::from("part,r,g,b,variance_share\n");
+        for (k, layer) in parts.layers.iter().enumerate() {
+            let ([r, g, b], share) = (layer.whole(), shares.as_ref().map_or(f64::NAN, |s| s[k]));
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{r},{g},{b},{share}", layer.name);
+        }
+        Some(text)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        controls_ui(ui, cx);
+        let Some((parts, current)) = parts(ui, cx) else {
+            return empty(ui, "The image is being taken apart.");
+        };
+        let view = cx.doc.view_doc(cx.wall.selected()).unwrap_or_else(|| cx.doc.clone()).view;
+        hang(ui, cx, &parts, &view);
+        let region = cx.doc.compare.region;
+        let inside = |x: usize, y: usize| {
+            region.is_none_or(|[x0, y0, x1, y1]| {
+                (x0 as usize..x1 as usize).contains(&x) && (y0 as usize..y1 as usize).contains(&y)
+            })
+        };
+        let shares = parts.variance_shares(inside);
+        let shown = playing(ui, cx, parts.layers.len());
+        // Two lines of text and the scroll bar stand below.
+        let height = (ui.available_height() - 3.0 * ui.text_style_height(&egui::TextStyle::Small)).max(40.0);
+        ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                let size = vec2(height * parts.width as f32 / parts.height.max(1) as f32, height);
+                for (k, layer) in parts.layers.iter().enumerate() {
+                    let share = shares.as_ref().map(|s| s[k]);
+                    let lit = shown.is_none_or(|shown| shown == k);
+                    let tint = if lit && current { 255 } else { 110 };
+                    part_ui(ui, cx.inspector.parts.hung.get(k), layer, share, size, tint);
+                }
+            });
+        });
+    }
+}
+
+fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
+    let palette = Palette::get(ui);
+    let state = &mut cx.inspector.parts;
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("by").small().color(palette.weak));
+        for split in Split::ALL {
+            let on = state.split == split;
+            let response = ui.add(Button::selectable(on, RichText::new(split.name()).small()));
+            response.widget_info(|| {
+                egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("By {}", split.name()))
+            });
+            if response.clicked() {
+                (state.split, state.playing) = (split, None);
+            }
+        }
+        ComboBox::from_id_salt("spp")
+            .selected_text(RichText::new(format!("{} spp", state.spp())).small())
+            .show_ui(ui, |ui| {
+                for spp in SPP {
+                    ui.selectable_value(&mut state.spp, Some(spp), format!("{spp} samples per pixel"));
+                }
+            });
+        let playing = state.playing.is_some();
+        let text = if playing { "Stop" } else { "Play" };
+        let play = ui.add(Button::new(RichText::new(text).small())).on_hover_text("One part after another");
+        if play.clicked() {
+            state.playing = (!playing).then(|| ui.input(|input| input.time));
+        }
+        if state.errand.is_running() {
+            ui.spinner();
+        }
+        let text = "mean, and share of the noise";
+        ui.label(RichText::new(text).small().color(palette.weak)).on_hover_text(
+            "Cov(part, image) / Var(image) of one sample; the shares sum to one. In the box, if one is drawn. Below zero: \
+             bright where the others are dark.",
+        );
+    });
+}
+
+/// The parts at hand, or those before while they are being traced.
+fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
+    let slot = cx.wall.selected_slot()?;
+    let probe = slot.state.probe.clone()?;
+    let state = &mut cx.inspector.parts;
+    let (split, spp) = (state.split, state.spp());
+    let question = PartsQuestion { of: (cx.wall.selected(), slot.state.generation), split, spp };
+    let ctx = ui.ctx().clone();
+    state.errand.ask(
+        &question,
+        move || ctx.request_repaint(),
+        move |wanted| probe.strategies(split, 0..spp, wanted),
+    )
+}
+
+/// Brings the textures in line with an answer.
+fn hang(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
+    let state = &mut cx.inspector.parts;
+    let same = state.hung_of.as_ref().is_some_and(|hung| Arc::ptr_eq(hung, parts));
+    if same && state.exposure == view.exposure_ev {
+        return;
+    }
+    let display = DisplayTransform::new(view);
+    let texture = |(k, layer): (usize, &majorant_core::inspect::Layer)| {
+        let bytes: Vec<u8> = layer.mean.iter().flat_map(|rgb| display.encode(*rgb)).collect();
+        let image = ColorImage::from_rgb([parts.width, parts.height], &bytes);
+        ui.ctx().load_texture(format!("part {k}"), image, TextureOptions::LINEAR)
+    };
+    state.hung = parts.layers.iter().enumerate().map(texture).collect();
+    (state.hung_of, state.exposure) = (Some(Arc::clone(parts)), view.exposure_ev);
+}
+
+/// Which part is lit, while they are shown one after another.
+fn playing(ui: &Ui, cx: &Cx<'_>, parts: usize) -> Option<usize> {
+    let since = cx.inspector.parts.playing?;
+    ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(0.5 * EACH));
+    let shown = ((ui.input(|input| input.time) - since) / EACH) as usize;
+    Some(shown % parts.max(1))
+}
+
+fn part_ui(
+    ui: &mut Ui,
+    texture: Option<&egui::TextureHandle>,
+    layer: &majorant_core::inspect::Layer,
+    share: Option<f64>,
+    size: egui::Vec2,
+    tint: u8,
+) {
+    let palette = Palette::get(ui);
+    ui.vertical(|ui| {
+        if let Some(texture) = texture {
+            let image = Image::new((texture.id(), size)).tint(egui::Color32::from_gray(tint));
+            ui.add(image.alt_text(format!("Part: {}", layer.name)));
+        }
+        ui.label(RichText::new(&layer.name).small().color(palette.strong));
+        let grey = layer.whole().iter().sum::<f64>() / 3.0;
+        let share = share.map_or(String::new(), |s| format!("   {:.0} %", 100.0 * s));
+        ui.label(RichText::new(format!("{grey:.4}{share}")).small().color(palette.weak));
+    });
+}

@@ -1,0 +1,184 @@
+//! The ledger: event by event what the path contributes and how likely it is, and what light that adds.
+
+use super::super::Cx;
+use crate::theme::Palette;
+use crate::wall::inspector::Replayed;
+use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui};
+use egui_extras::{Column, TableBuilder, TableRow};
+use majorant_core::inspect::{Branch, Credit, Row, Step};
+
+/// The colour of an event, in space and in the table.
+pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
+    match (row.step, row.branch) {
+        (Step::Credit, _) => Color32::from_rgb(236, 190, 60),
+        (Step::Absorb | Step::Die(_), _) => palette.error,
+        (Step::Null, Branch::Path | Branch::LightWalk) => palette.weak,
+        (Step::Null, _) => Color32::from_rgb(196, 140, 88),
+        (Step::Scatter | Step::Reflect, _) => palette.accent,
+        (Step::Connect(..) | Step::Dark | Step::Transmittance, _) => Color32::from_rgb(228, 138, 62),
+        _ => palette.text,
+    }
+}
+
+pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
+    let palette = Palette::get(ui);
+    let ledger = &replayed.ledger;
+    let kept_names = ledger.rows.iter().find_map(|row| row.kept).map_or(["", "", ""], |kept| kept.names);
+    let height = ui.text_style_height(&egui::TextStyle::Small) + 5.0;
+    let state = &mut cx.inspector.path;
+    state.step = state.step.min(ledger.rows.len().saturating_sub(1));
+    let (step, mut clicked) = (state.step, None);
+    let defined = ledger.credits().any(|c| c.by_definition.is_some());
+    // The chosen event in full stands below the table.
+    let detail = height * 5.0 + 10.0;
+    let room = (ui.available_height() - detail - 2.0 * height).max(40.0);
+    egui::ScrollArea::horizontal().id_salt("ledger").auto_shrink([false, true]).show(ui, |ui| {
+        let mut table = TableBuilder::new(ui)
+            .striped(true)
+            .sense(Sense::click())
+            .auto_shrink([false, false])
+            .min_scrolled_height(room)
+            .max_scroll_height(room)
+            .cell_layout(Layout::right_to_left(Align::Center))
+            .column(Column::exact(24.0))
+            .column(Column::initial(116.0).at_least(80.0))
+            .columns(Column::auto().at_least(56.0), 3)
+            .column(Column::remainder().at_least(58.0));
+        if std::mem::take(&mut state.scroll) {
+            table = table.scroll_to_row(step, None);
+        }
+        table
+            .header(height, |mut header| {
+                let names = [
+                    ("", ""),
+                    ("event", "Indented: on a connection, or a walk that only meets light"),
+                    ("f", "What the path contributes, at its hero: a product over its events"),
+                    ("p uni", "How likely unidirectional sampling makes it"),
+                    (
+                        "p nee",
+                        "How likely next-event estimation makes it; at a vertex without the light's density",
+                    ),
+                    ("adds", "Light that is added to the estimate, as linear sRGB grey"),
+                ];
+                for (name, tip) in names {
+                    header.col(|ui| {
+                        ui.label(RichText::new(name).small().color(palette.weak)).on_hover_text(tip);
+                    });
+                }
+            })
+            .body(|body| {
+                body.rows(height, ledger.rows.len(), |mut row| {
+                    let i = row.index();
+                    row.set_selected(i == step);
+                    row_ui(&mut row, i, &ledger.rows[i], palette);
+                    if row.response().clicked() {
+                        clicked = Some(i);
+                    }
+                });
+            });
+    });
+    if let Some(i) = clicked {
+        state.step = i;
+    }
+    if let Some(row) = ledger.rows.get(state.step) {
+        detail_ui(ui, row, kept_names, ledger.carried.count(), defined);
+    }
+}
+
+fn row_ui(row: &mut TableRow<'_, '_>, i: usize, event: &Row, palette: &Palette) {
+    let small = |text: String, colour: Color32| RichText::new(text).small().monospace().color(colour);
+    row.col(|ui| {
+        ui.add(Label::new(small(i.to_string(), palette.weak)).selectable(false));
+    });
+    row.col(|ui| {
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            if event.branch != Branch::Path {
+                ui.add_space(10.0);
+            }
+            let text = RichText::new(event.step.to_string()).small().color(colour(event, palette));
+            ui.add(Label::new(text).truncate().selectable(false));
+        });
+    });
+    for product in [&event.f[0], &event.uni[0], &event.nee[0]] {
+        row.col(|ui| {
+            ui.add(Label::new(small(product.to_string(), palette.text)).selectable(false));
+        });
+    }
+    row.col(|ui| {
+        if let Some(credit) = &event.credit {
+            let grey = credit.film.element_sum() / 3.0;
+            let text = small(format!("{grey:.5}"), colour(event, palette));
+            ui.add(Label::new(text).selectable(false));
+        }
+    });
+}
+
+/// Everything about one event, at every component.
+fn detail_ui(ui: &mut Ui, row: &Row, names: [&str; 3], count: usize, defined: bool) {
+    let palette = Palette::get(ui);
+    ui.add_space(3.0);
+    ui.separator();
+    let weak = |ui: &mut Ui, text: String| {
+        ui.add(Label::new(RichText::new(text).small().monospace().color(palette.weak)).truncate());
+    };
+    let values = |values: &[f32]| values.iter().map(|v| short(*v)).collect::<Vec<_>>().join("  ");
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(row.step.to_string()).small().color(colour(row, palette)));
+        if !row.numbers.is_empty() {
+            weak(ui, format!("random numbers {}", values(&row.numbers)));
+        }
+    });
+    match (row.step, &row.found, &row.credit) {
+        (_, _, Some(credit)) => credit_ui(ui, credit, count, defined),
+        (_, Some(found), _) => {
+            weak(ui, format!("μa {}", values(&found.absorption[..count])));
+            weak(
+                ui,
+                format!("μs {}   μn {}", values(&found.scattering[..count]), values(&found.null[..count])),
+            );
+            weak(ui, format!("μ̄  {}", values(&found.majorant[..count])));
+        }
+        (Step::Leave(value, density), ..) => {
+            weak(
+                ui,
+                format!("phase function or cosine lobe {value:.5}, drawn with density {density:.5} /sr"),
+            );
+        }
+        (Step::Connect(value, walk, light), ..) => {
+            weak(ui, format!("phase function {value:.5}, the walk's density {walk:.5} /sr"));
+            weak(ui, format!("the light's density {light:.5} /sr"));
+        }
+        _ => {}
+    }
+    if let (Some(kept), None) = (&row.kept, &row.credit) {
+        let parts = names.iter().zip(&kept.values).filter(|(name, _)| !name.is_empty());
+        let text: Vec<_> = parts.map(|(name, v)| format!("{name} {}", values(&v[..count]))).collect();
+        weak(ui, text.join("   "));
+    }
+}
+
+fn credit_ui(ui: &mut Ui, credit: &Credit, count: usize, defined: bool) {
+    let palette = Palette::get(ui);
+    let values = |values: &[f32]| values.iter().map(|v| short(*v)).collect::<Vec<_>>().join("  ");
+    let line = |ui: &mut Ui, text: String| {
+        ui.add(Label::new(RichText::new(text).small().monospace().color(palette.text)).truncate());
+    };
+    let nulls = credit.nulls;
+    line(ui, format!("{}, scattered {} ×, {nulls} null collisions", credit.technique.name(), credit.order));
+    line(ui, format!("light {}", values(&credit.emitted[..count])));
+    line(ui, format!("added {}", values(&credit.value[..count])));
+    if let Some(by_definition) = credit.by_definition {
+        line(ui, format!("Le f / mean p  {}", values(&by_definition[..count])));
+    } else if !defined {
+        line(ui, "its paths have no densities to hold this against".to_owned());
+    }
+}
+
+/// Five significant digits, whatever the size.
+fn short(value: f32) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        size if (1e-3..1e5).contains(&size) => format!("{value:.4}"),
+        _ => format!("{value:.2e}"),
+    }
+}

@@ -1,0 +1,293 @@
+//! The path in space: box, lights, events by kind; turned by dragging.
+
+use super::super::Cx;
+use super::events::colour;
+use crate::theme::Palette;
+use crate::view::camera_control::{dolly, orbit};
+use crate::wall::inspector::Replayed;
+use egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
+use glam::Vec3;
+use majorant_core::inspect::{Branch, Row, Step};
+use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc};
+use majorant_core::transport::Note;
+
+/// The picture of space: what projects, and what is drawn with.
+struct Eye<'a> {
+    camera: Camera,
+    rect: Rect,
+    painter: Painter,
+    palette: &'a Palette,
+}
+
+impl Eye<'_> {
+    fn see(&self, point: Vec3) -> Option<Pos2> {
+        let at = self.camera.pixel_of(point)?;
+        at.is_finite().then(|| self.rect.min + vec2(at.x, at.y))
+    }
+
+    fn line(&self, a: Vec3, b: Vec3, stroke: Stroke) {
+        if let (Some(a), Some(b)) = (self.see(a), self.see(b)) {
+            self.painter.line_segment([a, b], stroke);
+        }
+    }
+
+    fn dashed(&self, a: Vec3, b: Vec3, stroke: Stroke) {
+        if let (Some(a), Some(b)) = (self.see(a), self.see(b)) {
+            self.painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
+        }
+    }
+}
+
+pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
+    let palette = Palette::get(ui);
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "The path in space"));
+    let view = cx.wall.selected();
+    let Some(probe) = cx.wall.slots().get(view).and_then(|slot| slot.state.probe.clone()) else { return };
+    let Some(doc) = cx.doc.view_doc(view) else { return };
+    let scene = probe.scene();
+    let (center, size) = extent(scene);
+    let state = &mut cx.inspector.path;
+    let eye = state.eye.get_or_insert_with(|| first_look(&doc, center, size));
+    if response.dragged() {
+        let by = response.drag_delta() / rect.size();
+        *eye = orbit(eye, by.x, by.y);
+    }
+    if response.hovered() {
+        let scrolled = ui.input(|input| input.smooth_scroll_delta().y);
+        if scrolled != 0.0 {
+            *eye = dolly(eye, (-scrolled * 0.004).exp());
+        }
+    }
+    if response.double_clicked() {
+        *eye = first_look(&doc, center, size);
+    }
+    let camera = Camera::new(eye, rect.width() as u32, rect.height() as u32);
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 3.0, palette.well);
+    let eye = Eye { camera, rect, painter, palette };
+    eye.medium(scene);
+    eye.lights(&doc, center, size);
+    eye.path(replayed, size);
+    if let Some(row) = replayed.ledger.rows.get(state.step) {
+        eye.cell(scene, row);
+        eye.lobe(scene, replayed, row, size);
+        eye.mark(row);
+    }
+    eye.legend();
+    // An event is chosen where it is seen.
+    if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+        let near =
+            |row: &Row| row.point.and_then(|p| eye.see(p)).map_or(f32::INFINITY, |seen| seen.distance(at));
+        let rows = replayed.ledger.rows.iter().enumerate();
+        let nearest = rows.map(|(i, row)| (i, near(row))).min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((i, distance)) = nearest
+            && distance < 12.0
+        {
+            (state.step, state.scroll) = (i, true);
+        }
+    }
+    response
+        .on_hover_text_at_pointer("Drag to turn, scroll to come closer, click an event; double-click: back");
+}
+
+/// Middle and size of the medium.
+fn extent(scene: &Scene) -> (Vec3, f32) {
+    let world = scene.medium_from_world.inverse();
+    let size = world.transform_vector3(Vec3::ONE).length();
+    (world.transform_point3(Vec3::splat(0.5)), size)
+}
+
+/// From the side of the scene's camera, a little higher, so that the camera's ray is seen.
+fn first_look(doc: &SceneDoc, center: Vec3, size: f32) -> CameraDoc {
+    let up = Vec3::from(doc.camera.up).normalize_or(Vec3::Y);
+    let back = (Vec3::from(doc.camera.origin) - center).normalize_or(Vec3::Z);
+    let side = up.cross(back).normalize_or(up.any_orthonormal_vector());
+    let from = (back * 0.75 + side * 0.75 + up * 0.4).normalize();
+    CameraDoc {
+        origin: (center + from * (1.9 * size)).to_array(),
+        target: center.to_array(),
+        fov_deg: 42.0,
+        ..doc.camera.clone()
+    }
+}
+
+impl Eye<'_> {
+    /// The edges of the medium's box.
+    fn medium(&self, scene: &Scene) {
+        let world = scene.medium_from_world.inverse();
+        self.frame(|unit| world.transform_point3(unit), Stroke::new(1.0, self.palette.line));
+    }
+
+    fn frame(&self, at: impl Fn(Vec3) -> Vec3, stroke: Stroke) {
+        for axis in 0..3 {
+            for corner in 0..4u8 {
+                let mut from = Vec3::ZERO;
+                from[(axis + 1) % 3] = f32::from(corner & 1);
+                from[(axis + 2) % 3] = f32::from(corner >> 1);
+                self.line(at(from), at(from + Vec3::AXES[axis]), stroke);
+            }
+        }
+    }
+
+    /// Lights with a place as outlines, distant ones as arrows.
+    fn lights(&self, doc: &SceneDoc, center: Vec3, size: f32) {
+        let stroke = Stroke::new(1.4, Color32::from_rgb(236, 190, 60));
+        for light in &doc.lights {
+            match light {
+                LightDoc::Rectangle { center, target, up, size, .. } => {
+                    let center = Vec3::from(*center);
+                    let facing = (Vec3::from(*target) - center).normalize_or(Vec3::Z);
+                    let right = facing.cross(Vec3::from(*up)).normalize_or(facing.any_orthonormal_vector());
+                    let (right, up) = (right * (0.5 * size[0]), right.cross(facing) * (0.5 * size[1]));
+                    let corners = [-right - up, right - up, right + up, up - right];
+                    for i in 0..4 {
+                        self.line(center + corners[i], center + corners[(i + 1) % 4], stroke);
+                    }
+                }
+                LightDoc::Sphere { center, radius, .. } => {
+                    let center = Vec3::from(*center);
+                    for axes in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
+                        let at = |i: u16| {
+                            let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / 32.0).sin_cos();
+                            center + (axes.0 * cos + axes.1 * sin) * *radius
+                        };
+                        (0..32).for_each(|i| self.line(at(i), at(i + 1), Stroke::new(0.7, stroke.color)));
+                    }
+                }
+                LightDoc::Sun { toward, .. } => {
+                    let toward = Vec3::from(*toward).normalize_or(Vec3::Y);
+                    let (far, near) = (center + toward * (1.25 * size), center + toward * (0.85 * size));
+                    if let (Some(far), Some(near)) = (self.see(far), self.see(near)) {
+                        self.painter.arrow(far, near - far, stroke);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Rays between events, and the events themselves.
+    fn path(&self, replayed: &Replayed, size: f32) {
+        let ledger = &replayed.ledger;
+        let strong = Stroke::new(1.6, self.palette.text);
+        let mut last = None;
+        for row in ledger.rows.iter().filter(|row| row.branch == Branch::Path) {
+            if let Some(point) = row.point {
+                if let Some(from) = last {
+                    self.line(from, point, strong);
+                }
+                last = Some(point);
+            }
+        }
+        // A walk that leaves goes on to a light, or to nowhere.
+        if let (Some(from), Some(direction)) = (last, last_direction(replayed))
+            && ledger
+                .rows
+                .iter()
+                .rfind(|row| row.branch == Branch::Path)
+                .is_some_and(|r| r.step != Step::Absorb)
+        {
+            self.line(from, from + direction * size, Stroke::new(1.2, self.palette.weak));
+        }
+        for note in &replayed.recording.notes {
+            if let Note::Connect { ray, distance, .. } = note {
+                let end = ray.origin + ray.direction * distance.min(1.2 * size);
+                self.dashed(ray.origin, end, Stroke::new(1.1, Color32::from_rgb(228, 138, 62)));
+            }
+        }
+        for row in &ledger.rows {
+            let Some(at) = row.point.and_then(|point| self.see(point)) else { continue };
+            let colour = colour(row, self.palette);
+            match row.step {
+                Step::Null => {
+                    self.painter.circle_stroke(at, 2.6, Stroke::new(1.2, colour));
+                }
+                Step::Absorb | Step::Die(_) => {
+                    self.painter.rect_filled(Rect::from_center_size(at, vec2(7.0, 7.0)), 0.0, colour);
+                }
+                Step::Scatter | Step::Reflect => {
+                    self.painter.circle_filled(at, 4.0, colour);
+                }
+                Step::Camera => {
+                    self.painter.circle_filled(at, 4.5, self.palette.strong);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The majorant's cell of the chosen event.
+    fn cell(&self, scene: &Scene, row: &Row) {
+        let (Some(cells), Some(point)) = (scene.medium.majorant_cells(), row.point) else { return };
+        let n = cells.cells() as f32;
+        let unit = scene.medium_from_world.transform_point3(point);
+        if unit.min_element() < 0.0 || unit.max_element() > 1.0 {
+            return;
+        }
+        let corner = (unit * n).floor().min(Vec3::splat(n - 1.0));
+        let world = scene.medium_from_world.inverse();
+        let stroke = Stroke::new(1.0, self.palette.good);
+        self.frame(|within| world.transform_point3((corner + within) / n), stroke);
+    }
+
+    /// The phase function at the chosen vertex, in the plane of the screen's right and the direction of flight.
+    fn lobe(&self, scene: &Scene, replayed: &Replayed, row: &Row, size: f32) {
+        if !matches!(row.step, Step::Scatter | Step::Leave(..) | Step::Connect(..)) {
+            return;
+        }
+        let Some(point) = row.point else { return };
+        let Some(arrived) = direction_before(replayed, row.note) else { return };
+        let across =
+            arrived.cross(point - self.camera.origin()).normalize_or(arrived.any_orthonormal_vector());
+        let angles: Vec<f32> = (0..=96u8).map(|i| f32::from(i) * std::f32::consts::TAU / 96.0).collect();
+        let largest = angles.iter().map(|a| scene.phase.value(a.cos())).fold(f32::MIN_POSITIVE, f32::max);
+        let outline = angles.iter().filter_map(|angle| {
+            // Three decades below the peak, as in the panel.
+            let radius = (1.0 + (scene.phase.value(angle.cos()) / largest).max(1e-9).log10() / 3.0).max(0.0);
+            let direction = arrived * angle.cos() + across * angle.sin();
+            self.see(point + direction * (radius * 0.22 * size))
+        });
+        let outline: Vec<Pos2> = outline.collect();
+        let stroke = Stroke::new(1.2, self.palette.accent.gamma_multiply(0.8));
+        self.painter.add(Shape::line(outline, stroke));
+    }
+
+    fn mark(&self, row: &Row) {
+        if let Some(at) = row.point.and_then(|point| self.see(point)) {
+            self.painter.circle_stroke(at, 8.0, Stroke::new(2.0, self.palette.strong));
+        }
+    }
+
+    fn legend(&self) {
+        let entries = [
+            ("scattering", self.palette.accent),
+            ("null", self.palette.weak),
+            ("connection", Color32::from_rgb(228, 138, 62)),
+            ("majorant cell", self.palette.good),
+        ];
+        let mut at = self.rect.left_bottom() + vec2(8.0, -8.0);
+        for (name, colour) in entries {
+            let font = FontId::proportional(11.0);
+            let drawn = self.painter.text(pos2(at.x, at.y), Align2::LEFT_BOTTOM, name, font, colour);
+            at.x = drawn.right() + 10.0;
+            if at.x > self.rect.right() - 60.0 {
+                break;
+            }
+        }
+    }
+}
+
+/// The direction in which a path flew before one of its notes.
+fn direction_before(replayed: &Replayed, note: usize) -> Option<Vec3> {
+    replayed.recording.notes[..note].iter().rev().find_map(|note| match note {
+        Note::Camera { ray, .. } | Note::Leave { ray, .. } => Some(ray.direction),
+        _ => None,
+    })
+}
+
+fn last_direction(replayed: &Replayed) -> Option<Vec3> {
+    direction_before(replayed, replayed.recording.notes.len())
+}
