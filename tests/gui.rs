@@ -5,6 +5,8 @@
 mod files;
 #[path = "gui/harness.rs"]
 mod harness;
+#[path = "gui/inspect.rs"]
+mod inspect;
 #[path = "gui/laboratory.rs"]
 mod laboratory;
 #[path = "gui/self_check.rs"]

@@ -213,6 +213,12 @@ impl LabApp {
         self.submit_if_needed();
     }
 
+    /// What the tabs about single paths hold.
+    #[must_use]
+    pub fn inspector(&self) -> &Inspector {
+        &self.inspector
+    }
+
     /// What the majorant's factor costs, as far as it was measured.
     #[must_use]
     pub fn factor_curve(&self) -> &FactorCurve {

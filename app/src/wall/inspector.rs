@@ -80,7 +80,7 @@ impl PartsState {
     /// Samples per pixel that are taken apart.
     #[must_use]
     pub fn spp(&self) -> u64 {
-        self.spp.unwrap_or(16)
+        self.spp.unwrap_or(4)
     }
 }
 

@@ -47,8 +47,9 @@ impl fmt::Display for Product {
             return f.write_str("0");
         }
         let log10 = self.ln / std::f64::consts::LN_10;
-        let exponent = log10.floor();
-        let digits = 10f64.powf(log10 - exponent);
+        // What would be written as 10.00 belongs to the next power.
+        let exponent = (log10 + 0.002).floor();
+        let digits = 10f64.powf(log10 - exponent).max(1.0);
         let sign = if self.negative { "-" } else { "" };
         if (-3.0..4.0).contains(&exponent) {
             let value = digits * 10f64.powf(exponent);

@@ -91,13 +91,13 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
                 (state.split, state.playing) = (split, None);
             }
         }
-        ComboBox::from_id_salt("spp")
-            .selected_text(RichText::new(format!("{} spp", state.spp())).small())
-            .show_ui(ui, |ui| {
+        let combo = ComboBox::from_id_salt("spp").selected_text(RichText::new(format!("{} spp", state.spp())).small());
+        let combo = combo.show_ui(ui, |ui| {
                 for spp in SPP {
                     ui.selectable_value(&mut state.spp, Some(spp), format!("{spp} samples per pixel"));
                 }
             });
+        combo.response.accessible_name("Samples per pixel");
         let playing = state.playing.is_some();
         let text = if playing { "Stop" } else { "Play" };
         let play = ui.add(Button::new(RichText::new(text).small())).on_hover_text("One part after another");

@@ -18,7 +18,7 @@ pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)
         }
     };
     let mut plot = Plot::new(id.to_owned())
-        .legend(Legend::default())
+        .legend(Legend::default().text_style(egui::TextStyle::Small).background_alpha(0.6))
         .height(ui.available_height().max(80.0))
         .x_axis_label(names.0.to_owned())
         .y_axis_label(names.1.to_owned())

@@ -6,7 +6,7 @@ use crate::theme::{Palette, view_colour};
 use crate::wall::caption::digits;
 use crate::wall::inspector::{RayQuestion, RayState, Through};
 use egui::{Button, ComboBox, DragValue, RichText, Ui};
-use egui_plot::{Bar, BarChart, HLine, Line, LineStyle, PlotPoints, Points, VLine};
+use egui_plot::{Bar, BarChart, Line, LineStyle, PlotPoints, Points, VLine};
 use glam::Vec2;
 use majorant_core::inspect::{Along, BenchPlan, RayBench};
 use majorant_core::scene::Mode;
@@ -88,24 +88,20 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         }
         ui.separator();
         let kind = state.kind();
-        ComboBox::from_id_salt("kind").selected_text(RichText::new(kind.entry().name).small()).show_ui(
-            ui,
-            |ui| {
-                for kind in TransmittanceKind::all() {
-                    let entry = kind.entry();
-                    let name = if entry.unbiased {
-                        entry.name.to_owned()
-                    } else {
-                        format!("{} (biased)", entry.name)
-                    };
-                    let on = state.kind().entry().id == entry.id;
-                    let tip = format!("{}\n\n{}\n\n{}", entry.formula, entry.summary, entry.cost);
-                    if ui.selectable_label(on, name).on_hover_text(tip).clicked() {
-                        state.kind = Some(kind);
-                    }
+        let combo = ComboBox::from_id_salt("kind").selected_text(RichText::new(kind.entry().name).small());
+        let combo = combo.show_ui(ui, |ui| {
+            for kind in TransmittanceKind::all() {
+                let entry = kind.entry();
+                let name =
+                    if entry.unbiased { entry.name.to_owned() } else { format!("{} (biased)", entry.name) };
+                let on = state.kind().entry().id == entry.id;
+                let tip = format!("{}\n\n{}\n\n{}", entry.formula, entry.summary, entry.cost);
+                if ui.selectable_label(on, name).on_hover_text(tip).clicked() {
+                    state.kind = Some(kind);
                 }
-            },
-        );
+            }
+        });
+        combo.response.accessible_name("Estimator of transmittance");
         match state.through {
             Through::Pixel => component_ui(ui, state, mode),
             Through::Shape(_) => {
@@ -210,20 +206,31 @@ fn curve<'a>(name: &'a str, points: &[[f32; 2]]) -> Line<'a> {
     Line::new(name, points).width(1.6)
 }
 
+/// The majorants as a line. Between pieces nothing is known to be there.
+fn stairs(bench: &RayBench) -> Vec<[f32; 2]> {
+    let mut stairs = vec![[0.0, 0.0]];
+    let mut end = 0.0;
+    for [t0, t1, majorant] in &bench.majorants {
+        // Cells that touch may do so but for rounding.
+        if *t0 > end + 1e-4 * bench.length {
+            stairs.extend([[end, 0.0], [*t0, 0.0]]);
+        }
+        stairs.extend([[*t0, *majorant], [*t1, *majorant]]);
+        end = *t1;
+    }
+    stairs.extend([[end, 0.0], [bench.length, 0.0]]);
+    // A line has no direction between two points that are one.
+    stairs.dedup();
+    stairs
+}
+
 fn extinction_ui(ui: &mut Ui, bench: &RayBench) {
     let palette = Palette::get(ui);
     plot("extinction", ui, ("t", "μ"), (false, false)).show(ui, |plot| {
-        let mut stairs = Vec::new();
-        let mut end = 0.0;
-        for [t0, t1, majorant] in &bench.majorants {
-            // Between pieces nothing is known to be there.
-            if *t0 > end {
-                stairs.extend([[end, 0.0], [*t0, 0.0]]);
-            }
-            stairs.extend([[*t0, *majorant], [*t1, *majorant]]);
-            end = *t1;
+        // One line per step: a single one with many right angles is drawn too thick.
+        for ends in stairs(bench).windows(2) {
+            plot.line(curve("majorant", ends).color(palette.warning));
         }
-        plot.line(curve("majorant", &stairs).color(palette.warning));
         plot.line(curve("extinction", &bench.extinction).color(palette.accent));
         let looks: PlotPoints<'_> =
             bench.looks.iter().map(|look| [f64::from(look.t), f64::from(look.extinction)]).collect();
@@ -237,7 +244,7 @@ fn transmittance_ui(ui: &mut Ui, bench: &RayBench) {
         plot.line(curve("truth", &bench.transmittance).color(palette.good));
         plot.line(curve("this estimate", &bench.running).color(palette.strong));
         for look in &bench.looks {
-            let line = VLine::new("look-up", f64::from(look.t)).color(palette.line);
+            let line = VLine::new("", f64::from(look.t)).color(palette.line);
             plot.vline(line.width(0.6).style(LineStyle::dashed_dense()).allow_hover(false));
         }
     });
@@ -265,8 +272,7 @@ fn histogram_ui(ui: &mut Ui, bench: &RayBench) {
         let [mean, error] = bench.mean;
         plot.vline(VLine::new(format!("mean {}", digits(mean)), mean).color(palette.strong));
         for side in [-1.96, 1.96] {
-            plot.vline(VLine::new("95 %", mean + side * error).color(palette.weak).allow_hover(false));
+            plot.vline(VLine::new("", mean + side * error).color(palette.weak).allow_hover(false));
         }
-        plot.hline(HLine::new("none", 0.0).color(palette.line).allow_hover(false));
     });
 }

@@ -31,6 +31,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let defined = ledger.credits().any(|c| c.by_definition.is_some());
     // The chosen event in full stands below the table.
     let detail = height * 5.0 + 10.0;
+    ui.spacing_mut().item_spacing.x = 4.0;
     let room = (ui.available_height() - detail - 2.0 * height).max(40.0);
     egui::ScrollArea::horizontal().id_salt("ledger").auto_shrink([false, true]).show(ui, |ui| {
         let mut table = TableBuilder::new(ui)
@@ -40,10 +41,10 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
             .min_scrolled_height(room)
             .max_scroll_height(room)
             .cell_layout(Layout::right_to_left(Align::Center))
-            .column(Column::exact(24.0))
-            .column(Column::initial(116.0).at_least(80.0))
-            .columns(Column::auto().at_least(56.0), 3)
-            .column(Column::remainder().at_least(58.0));
+            .column(Column::exact(20.0))
+            .column(Column::initial(100.0).at_least(80.0))
+            .columns(Column::auto().at_least(50.0), 3)
+            .column(Column::remainder().at_least(52.0));
         if std::mem::take(&mut state.scroll) {
             table = table.scroll_to_row(step, None);
         }

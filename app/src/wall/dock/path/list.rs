@@ -32,7 +32,11 @@ pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, samples: &[(u64, f32)], chos
             let on = *sample == chosen;
             let colour = if on { palette.strong } else { palette.text };
             let button = Button::selectable(on, RichText::new(text).small().monospace().color(colour));
-            let response = ui.add(button.min_size(egui::vec2(ui.available_width(), height)));
+            let response = ui.add(
+                button
+                    .wrap_mode(egui::TextWrapMode::Extend)
+                    .min_size(egui::vec2(ui.available_width(), height)),
+            );
             response.widget_info(|| {
                 egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("Sample {sample}"))
             });

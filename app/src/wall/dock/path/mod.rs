@@ -71,8 +71,8 @@ impl Tab for Path {
         bar_ui(ui, cx, pixel, chosen, replayed.as_deref());
         let room = ui.available_rect_before_wrap();
         let narrow = room.width() < 620.0;
-        let list_width = if narrow { 0.0 } else { 124.0 };
-        let ledger_width = (0.56 * (room.width() - list_width)).max(300.0);
+        let list_width = if narrow { 0.0 } else { 138.0 };
+        let ledger_width = (0.57 * (room.width() - list_width)).max(300.0);
         let (left, rest) = room.split_left_right_at_x(room.left() + list_width);
         let (middle, right) = rest.split_left_right_at_x(rest.right() - ledger_width);
         if !narrow {
@@ -171,7 +171,8 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
         let own = cx.doc.view_doc(view).and_then(|doc| majorant_core::estimator::find(&doc.estimator.id));
         ui.label(RichText::new("under").small().color(palette.weak));
         let shown = state.under.or(own).map_or("", |entry| entry.name);
-        ComboBox::from_id_salt("under").selected_text(RichText::new(shown).small()).show_ui(ui, |ui| {
+        let combo = ComboBox::from_id_salt("under").selected_text(RichText::new(shown).small());
+        let combo = combo.show_ui(ui, |ui| {
             for entry in REGISTRY {
                 let is_own = own.is_some_and(|own| own.id == entry.id);
                 let on = state.under.or(own).is_some_and(|now| now.id == entry.id);
@@ -183,6 +184,7 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
                 }
             }
         });
+        combo.response.accessible_name("Replay under");
         if let Some(replayed) = replayed {
             let film = replayed.ledger.film;
             let text = format!(

@@ -13,6 +13,9 @@ use majorant_core::inspect::{Branch, Row, Step};
 use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc};
 use majorant_core::transport::Note;
 
+/// Places along a line where its visible part may begin.
+const STEPS: u8 = 64;
+
 /// The picture of space: what projects, and what is drawn with.
 struct Eye<'a> {
     camera: Camera,
@@ -27,15 +30,24 @@ impl Eye<'_> {
         at.is_finite().then(|| self.rect.min + vec2(at.x, at.y))
     }
 
+    /// What is before the eye of a line, from end to end on the screen.
+    fn seen_part(&self, a: Vec3, b: Vec3) -> Option<[Pos2; 2]> {
+        let near = |end: Vec3, other: Vec3| {
+            // The end itself, or the point closest to it that is seen.
+            (0..=STEPS).find_map(|i| self.see(end.lerp(other, f32::from(i) / f32::from(STEPS))))
+        };
+        Some([near(a, b)?, near(b, a)?])
+    }
+
     fn line(&self, a: Vec3, b: Vec3, stroke: Stroke) {
-        if let (Some(a), Some(b)) = (self.see(a), self.see(b)) {
-            self.painter.line_segment([a, b], stroke);
+        if let Some(ends) = self.seen_part(a, b) {
+            self.painter.line_segment(ends, stroke);
         }
     }
 
     fn dashed(&self, a: Vec3, b: Vec3, stroke: Stroke) {
-        if let (Some(a), Some(b)) = (self.see(a), self.see(b)) {
-            self.painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
+        if let Some(ends) = self.seen_part(a, b) {
+            self.painter.extend(Shape::dashed_line(&ends, stroke, 5.0, 4.0));
         }
     }
 }
@@ -70,7 +82,7 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let eye = Eye { camera, rect, painter, palette };
     eye.medium(scene);
     eye.lights(&doc, center, size);
-    eye.path(replayed, size);
+    eye.path(replayed, center, size);
     if let Some(row) = replayed.ledger.rows.get(state.step) {
         eye.cell(scene, row);
         eye.lobe(scene, replayed, row, size);
@@ -170,7 +182,7 @@ impl Eye<'_> {
     }
 
     /// Rays between events, and the events themselves.
-    fn path(&self, replayed: &Replayed, size: f32) {
+    fn path(&self, replayed: &Replayed, center: Vec3, size: f32) {
         let ledger = &replayed.ledger;
         let strong = Stroke::new(1.6, self.palette.text);
         let mut last = None;
@@ -190,7 +202,8 @@ impl Eye<'_> {
                 .rfind(|row| row.branch == Branch::Path)
                 .is_some_and(|r| r.step != Step::Absorb)
         {
-            self.line(from, from + direction * size, Stroke::new(1.2, self.palette.weak));
+            let far = from.distance(center) + size;
+            self.line(from, from + direction * far, Stroke::new(1.2, self.palette.weak));
         }
         for note in &replayed.recording.notes {
             if let Note::Connect { ray, distance, .. } = note {

@@ -1,0 +1,118 @@
+//! What a path, a ray and an image's parts are shown to be, and that it is that.
+
+use super::harness::{Lab, click, doc, lab, wait};
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+use majorant::lab::{Command, LabApp};
+use majorant::wall::dock::TABS;
+use majorant_core::session::Status;
+
+/// A finished picture with one of its pixels picked, under a tab.
+fn picked(tab: &'static str) -> (Lab, tempfile::TempDir) {
+    let (mut lab, directory) = lab();
+    wait(&mut lab, "finishing", |app| app.state().status == Status::Finished);
+    lab.state_mut().request(Command::ShowTab(tab));
+    lab.state_mut().request(Command::Pick([16, 9]));
+    lab.run_steps(4);
+    (lab, directory)
+}
+
+fn replayed(lab: &mut Lab, what: &str) {
+    lab.run_steps(2);
+    wait(lab, what, |app: &LabApp| !app.inspector().path.errand.is_running());
+    lab.run_steps(3);
+}
+
+#[test]
+fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
+    let (mut lab, _directory) = picked("path");
+    wait(&mut lab, "the samples", |app| app.inspector().path.sample.is_some());
+    replayed(&mut lab, "the path");
+    lab.check_accessibility();
+    // The brightest of four, and what the film has of it.
+    let probe = lab.state().state().probe.clone().expect("a probe");
+    let samples = probe.samples((16, 9), 0..4, majorant_core::transport::Wanted::ALWAYS);
+    let grey = |i: u64| samples[i as usize].rgb.iter().sum::<f32>();
+    let chosen = lab.state().inspector().path.sample.expect("a sample");
+    assert!((0..4).all(|i| grey(i) <= grey(chosen)), "{chosen} of {samples:?}");
+    click(&mut lab, Role::Button, "Next event");
+    assert_eq!(lab.state().inspector().path.step, 1);
+    lab.key_press(Key::CloseBracket);
+    lab.run_steps(2);
+    lab.key_press(Key::OpenBracket);
+    lab.run_steps(2);
+    click(&mut lab, Role::Button, "Previous event");
+    assert_eq!(lab.state().inspector().path.step, 0);
+    // Another sample, and another pixel.
+    let other = (0..4).find(|i| *i != chosen).expect("four");
+    click(&mut lab, Role::Button, &format!("Sample {other}"));
+    assert_eq!(lab.state().inspector().path.sample, Some(other));
+    replayed(&mut lab, "the other path");
+    lab.state_mut().request(Command::Pick([3, 3]));
+    lab.run_steps(3);
+    wait(&mut lab, "the other pixel", |app| app.inspector().path.pixel == Some([3, 3]));
+}
+
+#[test]
+fn an_outlier_is_found_when_nothing_is_picked() {
+    let (mut lab, _directory) = lab();
+    wait(&mut lab, "finishing", |app| app.state().status == Status::Finished);
+    lab.key_press(Key::I);
+    lab.run_steps(4);
+    click(&mut lab, Role::Button, "Take the brightest outlier");
+    assert!(lab.state().wall().picked.is_some());
+}
+
+#[test]
+fn a_ray_is_measured_through_the_medium_and_through_shapes() {
+    let (mut lab, _directory) = picked("ray");
+    let measured = |lab: &mut Lab| {
+        lab.run_steps(2);
+        wait(lab, "the ray", |app| !app.inspector().ray.errand.is_running());
+        lab.run_steps(3);
+        assert!(lab.query_by_label_contains("look-ups each").is_some());
+    };
+    measured(&mut lab);
+    lab.check_accessibility();
+    for shape in ["constant", "ramp", "gaussian", "cosine", "hole"] {
+        click(&mut lab, Role::Button, &format!("Through {shape}"));
+        measured(&mut lab);
+    }
+    let truth = majorant_core::transmittance::Shape::Hole.integral(1.0);
+    let text = format!("T = {:.5}", (-3.0 * truth).exp());
+    assert!(lab.query_by_label_contains(&text).is_some(), "{text}");
+    click(&mut lab, Role::Button, "Another");
+    measured(&mut lab);
+}
+
+#[test]
+fn an_image_is_taken_apart_every_way() {
+    let (mut lab, _directory) = picked("parts");
+    for split in ["technique", "scattering order", "null collisions", "hero"] {
+        click(&mut lab, Role::Button, &format!("By {split}"));
+        lab.run_steps(2);
+        wait(&mut lab, "the parts", |app| !app.inspector().parts.errand.is_running());
+        lab.run_steps(3);
+        let parts = lab.state().inspector().parts.hung_of.clone().expect("parts");
+        assert_eq!(parts.split.name(), split);
+        assert!(!parts.layers.is_empty());
+        lab.check_accessibility();
+    }
+    click(&mut lab, Role::Button, "Play");
+    assert!(lab.state().inspector().parts.playing.is_some());
+}
+
+#[test]
+fn tabs_about_one_view_are_there_for_one_and_for_several() {
+    let (mut lab, _directory) = lab();
+    assert_eq!(doc(&lab).view_count(), 1);
+    for count in [1, 2] {
+        click(&mut lab, Role::Button, &format!("{count} views"));
+        for tab in TABS.iter().filter(|tab| count > 1 || tab.for_one_view()) {
+            lab.state_mut().request(Command::ShowTab(tab.id()));
+            lab.run_steps(3);
+            lab.check_accessibility();
+        }
+    }
+}
