@@ -10,7 +10,8 @@
 use majorant_core::check::{self, Case, Check, Effort, Report, Verdict, own_scene};
 use majorant_core::estimator::{self, Entry, PathEstimate, PathIndex, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
-use majorant_core::scene::{Scene, WhenExceeded};
+use majorant_core::scene::{Fault, Scene, WhenExceeded};
+use majorant_core::spectrum::SpectrumDoc;
 use majorant_core::transport::{Company, Wanted};
 use std::collections::BTreeMap;
 
@@ -119,6 +120,38 @@ fn a_clamped_majorant_is_labelled_and_caught() {
     case.registry = &UNLABELLED;
     for row in run(vec![case], Effort::QUICK).rows {
         assert!(!row.passes(), "{row:?}");
+    }
+}
+
+/// Every planted mistake is labelled; unlabelled, the check finds each of them where it matters.
+#[test]
+fn planted_faults_are_labelled_and_caught() {
+    static UNLABELLED: std::sync::LazyLock<Vec<Entry>> = std::sync::LazyLock::new(|| {
+        let with = |id: &str| *estimator::find(id).unwrap();
+        vec![with("nee"), Entry { bias_of: |_| None, ..with("uni-nee-mis") }]
+    });
+    for fault in Fault::ALL {
+        let name = match fault {
+            Fault::None => continue,
+            Fault::HeroProbability => "half-space/chromatic-analogue",
+            Fault::RouletteOnOneTechnique => "half-space/chromatic-roulette",
+            Fault::NullByRounding | Fault::PhaseInBoth => "single-scattering/sun-hg0.9",
+            Fault::NullCap => "single-scattering/grid-majorant-10",
+        };
+        let mut case = check::named(name).unwrap().remove(0);
+        case.registry = &UNLABELLED;
+        if fault == Fault::HeroProbability {
+            // A channel that only absorbs; nobody has written down what escapes then.
+            case.doc.medium.albedo = SpectrumDoc::Rgb([0.95, 0.0, 0.8]);
+            case.answer = check::Answer::Agreement;
+        }
+        assert!(run(vec![case.clone()], Effort::QUICK).passes(), "{name} without a fault");
+        case.doc.estimator.fault = fault;
+        let labelled = estimator::find("uni-nee-mis").unwrap().bias(&case.doc);
+        assert!(labelled.is_some_and(|why| why.contains("planted")), "{labelled:?}");
+        let report = run(vec![case], Effort::QUICK);
+        let failures: Vec<_> = report.failures().map(|row| row.estimator).collect();
+        assert!(failures.contains(&"uni-nee-mis"), "{fault:?}: {:#?}", report.rows);
     }
 }
 

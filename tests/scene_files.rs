@@ -7,10 +7,10 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Arrangement, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc,
-    DensityDoc, DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, FilmDoc, GridRef,
-    Heuristic, Heuristics, Layer, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId,
-    MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve,
-    Tracking, ViewDoc, WhenExceeded,
+    DensityDoc, DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc,
+    GridRef, Heuristic, Heuristics, Layer, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc,
+    MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc,
+    ToneCurve, Tracking, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -82,6 +82,7 @@ fn everything() -> SceneDoc {
             heuristics: Heuristics { components: Heuristic::Power, techniques: Heuristic::Maximum },
             bookkeeping: Bookkeeping::ApartF64,
             tracking: Tracking::Average,
+            fault: Fault::NullCap,
             light_walk: LightWalk::Separate,
             lights: LightSelection::Contribution,
             light_sampling: LightSampling::Product,

@@ -5,6 +5,7 @@
 //!                                                          ▲                                             ▲
 //!                                         io (scenes, volumes, pictures, results)          measure (errors)
 //!   medium ─► transmittance (of a ray) ─► transport
+//!   estimator ─► inspect (paths taken apart) ─► session
 //!   film ─► measure (errors of a picture against a reference)
 //! ```
 //!
@@ -47,6 +48,7 @@ mod tests {
         &["scene", "measure"],
         &["transport"],
         &["estimator"],
+        &["inspect"],
         &["io"],
         &["session", "check"],
         &["compare"],

@@ -1,11 +1,13 @@
 //! What a path, a ray and an image's parts are shown to be, and that it is that.
 
-use super::harness::{Lab, click, doc, lab, wait};
+use super::harness::{Lab, click, doc, lab, open, wait};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use majorant::lab::{Command, LabApp};
 use majorant::wall::dock::TABS;
+use majorant_core::compare::Verdict;
+use majorant_core::scene::{Absorption, Fault};
 use majorant_core::session::Status;
 
 /// A finished picture with one of its pixels picked, under a tab.
@@ -101,6 +103,66 @@ fn an_image_is_taken_apart_every_way() {
     }
     click(&mut lab, Role::Button, "Play");
     assert!(lab.state().inspector().parts.playing.is_some());
+}
+
+#[test]
+fn noise_is_explained_and_the_advice_is_tried_beside() {
+    let (mut lab, _directory) = picked("noise");
+    click(&mut lab, Role::Button, "Absorption: Analogue");
+    wait(&mut lab, "the new picture", |app| app.state().status == Status::Finished);
+    lab.run_steps(2);
+    wait(&mut lab, "the evidence", |app| !app.inspector().noise.is_running());
+    lab.run_steps(3);
+    lab.check_accessibility();
+    assert!(lab.query_by_label_contains("absorption ends paths").is_some());
+    click(&mut lab, Role::Button, "Try advice 1");
+    lab.run_steps(3);
+    let docs = doc(&lab).view_docs();
+    assert_eq!(docs.len(), 2);
+    assert_eq!(
+        (docs[0].estimator.absorption, docs[1].estimator.absorption),
+        (Absorption::Analogue, Absorption::Weighted)
+    );
+    assert!(docs[0].render.seed != docs[1].render.seed);
+}
+
+#[test]
+fn a_planted_fault_is_announced_held_against_the_right_one_and_found() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "What goes wrong");
+    let choose = |lab: &mut Lab, name: &str| {
+        // What is said of the last one moves the panels.
+        wait(lab, "the picture", |app| app.state().status == Status::Finished);
+        lab.run_steps(12);
+        click(lab, Role::RadioButton, name);
+    };
+    for entry in Fault::ALL.iter().filter_map(|fault| fault.entry()) {
+        choose(&mut lab, entry.name);
+        assert_eq!(doc(&lab).estimator.fault.entry().map(|e| e.name), Some(entry.name));
+        assert!(lab.query_by_label_contains("Planted on purpose").is_some());
+        lab.check_accessibility();
+    }
+    choose(&mut lab, "Algorithm 4 as printed");
+    lab.state_mut().request(Command::HoldAgainstRight);
+    lab.run_steps(3);
+    let ids: Vec<_> =
+        doc(&lab).view_docs().iter().map(|d| (d.estimator.id.clone(), d.estimator.fault)).collect();
+    let right = Fault::None;
+    let expected = [("uni-nee-mis", Fault::PhaseInBoth), ("uni-nee-mis", right), ("nee", right)];
+    assert_eq!(ids, expected.map(|(id, fault)| (id.to_owned(), fault)));
+    // The limit of four samples is raised until nobody can doubt it.
+    let mut longer = doc(&lab).clone();
+    longer.render.spp = Some(256);
+    lab.state_mut().request(Command::Edit(Box::new(longer)));
+    wait(&mut lab, "the verdict", |app| {
+        let analysis = app.wall().analysis();
+        let verdict =
+            |label: &str| analysis.standing(label).and_then(|s| s.agreement.as_ref().map(|a| a.verdict));
+        verdict("A") == Some(Verdict::Differs) && verdict("B") == Some(Verdict::Agrees)
+    });
+    click(&mut lab, Role::Button, "Take it out");
+    assert_eq!(doc(&lab).estimator.fault, right);
+    assert!(lab.query_by_label_contains("Planted on purpose").is_none());
 }
 
 #[test]

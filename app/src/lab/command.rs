@@ -61,6 +61,12 @@ pub enum Command {
     ToggleBoxTool,
     /// Shows or hides the numbers.
     ToggleDock,
+    /// One more view, with the method of this document.
+    TryBeside(Box<SceneDoc>),
+    /// Shows the selected view beside what it should be.
+    HoldAgainstRight,
+    /// Takes planted mistakes out of the selected view.
+    TakeFaultOut,
     /// Shows the samples of a pixel.
     Pick([usize; 2]),
     /// Shows numbers of this kind.

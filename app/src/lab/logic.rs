@@ -4,6 +4,7 @@ use super::dialogs::Dialog;
 use super::tasks::Outcome;
 use super::{Answer, Command, LabApp, Severity};
 use crate::model::{Document, Source, resolved};
+use crate::panels::faults;
 use crate::view::developer::Sight;
 use crate::view::image_view::ImageView;
 use crate::wall::presets::PRESETS;
@@ -167,6 +168,22 @@ impl LabApp {
                 self.wall.tool = if self.wall.tool == Tool::Region { Tool::Camera } else { Tool::Region };
             }
             Command::ToggleDock => *self.dock_shown() ^= true,
+            Command::TryBeside(doc) => {
+                self.apply(Command::Wall(WallEdit::Beside(doc)));
+                self.apply(Command::ShowTab("ranking"));
+            }
+            Command::HoldAgainstRight => {
+                let selected = self.wall.selected();
+                self.apply(Command::Wall(WallEdit::AgainstRight(selected)));
+                self.apply(Command::ShowTab("ranking"));
+            }
+            Command::TakeFaultOut => {
+                let selected = self.wall.selected();
+                if let Some(mut doc) = self.doc().view_doc(selected) {
+                    faults::remove(&mut doc);
+                    self.document.edit(self.doc().with_view_doc(selected, &doc));
+                }
+            }
             Command::Pick(pixel) => self.wall.picked = Some(pixel),
             Command::ShowMajorants(slice) => self.settings.majorant_slice = slice,
             Command::ToggleMajorants => {

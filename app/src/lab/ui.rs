@@ -6,12 +6,12 @@ use super::help::help_ui;
 use super::messages::line_ui;
 use super::self_check::self_check_ui;
 use super::{Command, LabApp, shortcuts};
-use crate::panels::Column;
+use crate::panels::{Column, faults};
 use crate::theme::Palette;
 use crate::wall::dock;
 use egui::{
-    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, LayerId, Margin, Order, Panel, Stroke,
-    StrokeKind, Ui,
+    Align2, CentralPanel, Color32, Context, FontId, Frame, Id, LayerId, Margin, Order, Panel, RichText,
+    Stroke, StrokeKind, Ui,
 };
 use majorant_core::scene::{CameraDoc, SceneDoc};
 
@@ -28,6 +28,11 @@ impl LabApp {
 
         let menu = Panel::top("menu").frame(bar(Margin::symmetric(6, 3))).exact_size(30.0);
         menu.show(ui, |ui| self.menu_ui(ui, &mut commands));
+        if let Some(name) = faults::planted(&draft) {
+            let frame =
+                Frame::NONE.fill(palette.error.gamma_multiply(0.22)).inner_margin(Margin::symmetric(12, 4));
+            Panel::top("fault").frame(frame).show(ui, |ui| fault_ui(ui, name, &mut commands));
+        }
         let status = Panel::bottom("status").frame(bar(Margin::symmetric(12, 0))).exact_size(26.0);
         status.show(ui, |ui| self.status_ui(ui));
         self.messages_ui(ui, &mut commands);
@@ -127,6 +132,18 @@ impl LabApp {
         (self.pixel, self.zoom) = (seen.pixel, seen.zoom);
         seen.camera
     }
+}
+
+/// What is planted, for as long as it is.
+fn fault_ui(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
+    let palette = Palette::get(ui);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(format!("Planted on purpose: {name}")).color(palette.strong));
+        ui.label(RichText::new("the picture of this view is wrong").color(palette.text));
+        if ui.small_button("Take it out").clicked() {
+            commands.push(Command::TakeFaultOut);
+        }
+    });
 }
 
 /// While files hover over the window: what would become of them.

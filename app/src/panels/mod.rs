@@ -12,6 +12,7 @@ mod emission;
 mod estimator;
 mod extinction;
 mod factor_curve;
+pub mod faults;
 mod light_fields;
 mod lights;
 mod majorant;
@@ -96,5 +97,6 @@ pub const PANELS: &[&dyn Panel] = &[
     &render::Render,
     &estimator::Estimator,
     &majorant::Majorant,
+    &faults::Faults,
     &display::Display,
 ];

@@ -1,7 +1,8 @@
 //! What a comparison can be asked to become: pure edits of the document.
 
 use majorant_core::scene::{
-    Arrangement, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc, SceneDoc,
+    Arrangement, ContenderDoc, Fairness, Fault, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc, SceneDoc,
+    WhenExceeded,
 };
 
 /// An edit of the comparison. Views count from 0.
@@ -11,6 +12,10 @@ pub enum WallEdit {
     Count(usize),
     /// One more view like this one.
     Duplicate(usize),
+    /// One more view, with the method of this document.
+    Beside(Box<SceneDoc>),
+    /// Two more views of what this one should show: the same without its mistakes, and another technique.
+    AgainstRight(usize),
     /// This view goes; the last one stays.
     Remove(usize),
     /// These two change places.
@@ -53,6 +58,25 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
             }
             doc.compare.views.truncate(wanted - 1);
         }
+        WallEdit::Beside(method) if count < MAX_VIEWS => {
+            if let Some(next) = method.contender(0) {
+                let seed = doc.free_seed();
+                doc.compare.views.push(ContenderDoc { seed, ..next });
+            }
+        }
+        WallEdit::AgainstRight(view) => {
+            let Some(mut right) = doc.contender(*view) else { return doc };
+            let usual = SceneDoc::default();
+            right.estimator.fault = Fault::None;
+            right.estimator.transmittance.clone_from(&usual.estimator.transmittance);
+            (right.majorant.factor, right.majorant.when_exceeded) = (1.0, WhenExceeded::Weighted);
+            for id in ["uni-nee-mis", "nee"].into_iter().take(MAX_VIEWS - count) {
+                let mut next = ContenderDoc { seed: doc.free_seed(), ..right.clone() };
+                id.clone_into(&mut next.estimator.id);
+                doc.compare.views.push(next);
+            }
+            (doc.compare.arrangement, doc.compare.pair) = (Arrangement::Grid, Pair(*view, count));
+        }
         WallEdit::Duplicate(view) if count < MAX_VIEWS => {
             if let Some(copy) = doc.contender(*view) {
                 let seed = doc.free_seed();
@@ -62,7 +86,7 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
         }
         WallEdit::Remove(view) if count > 1 && *view < count => remove(&mut doc, *view),
         WallEdit::Swap(a, b) if a != b && *a < count && *b < count => swap(&mut doc, *a, *b),
-        WallEdit::Duplicate(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
+        WallEdit::Duplicate(_) | WallEdit::Beside(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
         WallEdit::Arrange(arrangement) => doc.compare.arrangement = *arrangement,
         WallEdit::Pair(pair) => doc.compare.pair = *pair,
         WallEdit::Layer(id) => doc.compare.layer = Layer(id.clone()),

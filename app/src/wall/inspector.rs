@@ -2,7 +2,7 @@
 
 use super::errand::Errand;
 use majorant_core::estimator::Entry;
-use majorant_core::inspect::{BenchPlan, Ledger, RayBench, Recording, Split, Strategies};
+use majorant_core::inspect::{BenchPlan, Evidence, Ledger, RayBench, Recording, Split, Strategies};
 use majorant_core::scene::CameraDoc;
 use majorant_core::transmittance::{Shape, TransmittanceKind};
 
@@ -155,6 +155,15 @@ impl RayState {
     }
 }
 
+/// A region whose noise is explained.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoiseQuestion {
+    /// Which submission of which view.
+    pub of: (usize, u64),
+    /// The box, if one is drawn.
+    pub region: Option<[u32; 4]>,
+}
+
 /// What the tabs hold.
 #[derive(Default)]
 pub struct Inspector {
@@ -164,4 +173,6 @@ pub struct Inspector {
     pub ray: RayState,
     /// An image taken apart.
     pub parts: PartsState,
+    /// What is known about the noise. See `dock/noise`.
+    pub noise: Errand<NoiseQuestion, Evidence>,
 }

@@ -49,6 +49,7 @@ impl Settings {
             heuristics: doc.heuristics,
             bookkeeping: doc.bookkeeping,
             tracking: doc.tracking,
+            fault: doc.fault,
             light_walk: doc.light_walk,
             lights: doc.lights,
             light_sampling: doc.light_sampling,

@@ -12,7 +12,7 @@
 //! Kulla and Fajardo 2012, section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
 
 use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, ONE_WALK, PathEstimate, PathIndex, RESCALED, Settings,
+    Axis, Entry, Estimator, HERO_DRAWS, NO_FAULTS, ONE_WALK, PathEstimate, PathIndex, RESCALED, Settings,
     clamped_majorant, dispatch,
 };
 use crate::math::Ray;
@@ -31,6 +31,7 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Kulla & Fajardo 2012, section 4; Miller, Georgiev & Jarosz 2019, section 5.2",
     unused: &[
         ONE_WALK,
+        NO_FAULTS,
         HERO_DRAWS,
         RESCALED,
         (Axis::Distances, "a vertex that is drawn by angle lies in the whole medium, not in a part of it"),

@@ -10,8 +10,8 @@
 //! left). Miller, Georgiev and Jarosz 2019, section 5.1.
 
 use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,
-    RESCALED, clamped_majorant, dispatch,
+    Axis, Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE,
+    ONE_WALK, RESCALED, clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -25,6 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Horešovský's report, figure 2",
     unused: &[
         ONE_WALK,
+        NO_FAULTS,
         (Axis::Components, "its paths carry one component"),
         ONE_TECHNIQUE,
         NO_CONNECTIONS,

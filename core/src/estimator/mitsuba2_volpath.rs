@@ -15,8 +15,8 @@
 //! Horešovský's report, algorithms 1–3, appendix A.
 
 use super::{
-    Axis, Entry, Estimator, Kernel, ONE_WALK, PathEstimate, PathIndex, Settings, biased_transmittance,
-    clamped_majorant, dispatch,
+    Axis, Entry, Estimator, Kernel, NO_FAULTS, ONE_WALK, PathEstimate, PathIndex, Settings,
+    biased_transmittance, clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::{AnyMedium, LocalMedium};
@@ -31,6 +31,7 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Horešovský's report, algorithms 1–3; Nimier-David et al. 2019",
     unused: &[
         ONE_WALK,
+        NO_FAULTS,
         (Axis::Absorption, "its scattering is weighted by μs / μt"),
         (Axis::Distances, "it tracks by delta in grids, and by the average extinction elsewhere"),
         (Axis::Books, "it keeps throughput over density only"),

@@ -61,6 +61,8 @@ pub enum Axis {
     Transmittance,
     /// [`crate::scene::LightWalk`].
     LightWalk,
+    /// [`crate::scene::Fault`].
+    Fault,
 }
 
 const ONE_TECHNIQUE: (Axis, &str) = (Axis::Techniques, "a single technique makes its paths");
@@ -68,6 +70,7 @@ const NO_CONNECTIONS: (Axis, &str) = (Axis::Lights, "it connects to no light");
 const RESCALED: (Axis, &str) = (Axis::Books, "its weights are rescaled; Uni+NEE MIS has the others");
 const NOTHING_TO_ESTIMATE: (Axis, &str) = (Axis::Transmittance, "it connects to no light");
 const ONE_WALK: (Axis, &str) = (Axis::LightWalk, "only in Uni+NEE MIS there are two ways to do it");
+const NO_FAULTS: (Axis, &str) = (Axis::Fault, "faults are planted in Uni+NEE MIS only");
 const HERO_DRAWS: (Axis, &str) = (Axis::Tracking, "its hero draws the events");
 
 impl Entry {

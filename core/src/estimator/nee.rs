@@ -10,8 +10,8 @@
 //! section 5.2.
 
 use super::{
-    Entry, Estimator, HERO_DRAWS, ONE_TECHNIQUE, ONE_WALK, RESCALED, biased_transmittance, clamped_majorant,
-    dispatch,
+    Entry, Estimator, HERO_DRAWS, NO_FAULTS, ONE_TECHNIQUE, ONE_WALK, RESCALED, biased_transmittance,
+    clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -25,7 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "NEE",
     summary: "Connects every scattering vertex to a light; wins for small lights.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, figure 3",
-    unused: &[ONE_WALK, ONE_TECHNIQUE, HERO_DRAWS, RESCALED],
+    unused: &[ONE_WALK, NO_FAULTS, ONE_TECHNIQUE, HERO_DRAWS, RESCALED],
     infinite_variance: |_| None,
     bias_of,
     kernel: dispatch::family::<Nee>,

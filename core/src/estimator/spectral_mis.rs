@@ -11,8 +11,8 @@
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
 
 use super::{
-    Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK, RESCALED,
-    clamped_majorant, dispatch,
+    Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,
+    RESCALED, clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -24,7 +24,7 @@ pub(super) const ENTRY: Entry = Entry {
     name: "Spectral MIS",
     summary: "All components share each unidirectional path, weighted by the balance heuristic.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.1; Wilkie et al. 2014; Horešovský's report, figure 2",
-    unused: &[ONE_WALK, ONE_TECHNIQUE, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, HERO_DRAWS, RESCALED],
+    unused: &[ONE_WALK, NO_FAULTS, ONE_TECHNIQUE, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, HERO_DRAWS, RESCALED],
     infinite_variance: |_| None,
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralMis>,

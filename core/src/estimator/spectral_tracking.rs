@@ -13,8 +13,8 @@
 //! heterogeneous volumes", section 5.1, algorithm 4.
 
 use super::{
-    Axis, Entry, Estimator, NO_CONNECTIONS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK, clamped_majorant,
-    dispatch,
+    Axis, Entry, Estimator, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,
+    clamped_majorant, dispatch,
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
@@ -29,6 +29,7 @@ pub(super) const ENTRY: Entry = Entry {
     reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
     unused: &[
         ONE_WALK,
+        NO_FAULTS,
         (Axis::Distances, "its events are drawn for all components at once"),
         (Axis::Books, "it has no densities to keep"),
         (Axis::Components, "it forms no densities that could be combined"),

@@ -16,10 +16,10 @@ use super::{
 };
 use crate::math::Ray;
 use crate::medium::LocalMedium;
-use crate::scene::{Bookkeeping, LightWalk, Scene};
+use crate::scene::{Bookkeeping, Fault, LightWalk, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Company, Event, Note, Pairwise, Rescaled, Technique, Trace, Vertex,
+    ApartF32, ApartF64, Books, Company, Event, Faulty, Note, Pairwise, Rescaled, Technique, Trace, Vertex,
     WalkWeights, Weights, World,
 };
 use std::marker::PhantomData;
@@ -37,13 +37,19 @@ pub(super) const ENTRY: Entry = Entry {
         ),
     ],
     infinite_variance: |_| None,
-    bias_of: clamped_majorant,
+    bias_of,
     kernel,
 };
+
+fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
+    let planted = (doc.estimator.fault != Fault::None).then_some("a fault is planted in it");
+    planted.or_else(|| clamped_majorant(doc))
+}
 
 /// One kernel for every way to keep the books.
 fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
     let kernel = match settings.path.bookkeeping {
+        _ if settings.path.fault != Fault::None => dispatch::family::<UniNeeMis<Faulty>>,
         Bookkeeping::Rescaled => dispatch::family::<UniNeeMis<Rescaled>>,
         Bookkeeping::ApartF32 => dispatch::family::<UniNeeMis<ApartF32>>,
         Bookkeeping::ApartF64 => dispatch::family::<UniNeeMis<ApartF64>>,
@@ -62,7 +68,7 @@ impl<B: Books> Estimator for UniNeeMis<B> {
     ) -> C::Radiance {
         let heuristics = world.settings.heuristics;
         let mut radiance = C::Radiance::BLACK;
-        let mut path = B::Weights::<N>::CAMERA;
+        let mut path = B::Weights::<N>::starting(&world.settings);
         let mut last: Option<Vertex> = None;
         let mut vertices = 0;
         loop {

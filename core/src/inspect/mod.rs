@@ -3,6 +3,7 @@
 //! Nothing here traces paths of its own: the estimator's kernel does, with the same random numbers as for the film, and
 //! tells its steps to an [`Observer`](crate::transport::Observer).
 
+mod advice;
 mod books;
 mod ledger;
 mod product;
@@ -11,6 +12,7 @@ mod recording;
 mod step;
 mod strategies;
 
+pub use advice::{Advice, Evidence, Shares, advise};
 pub use ledger::{Credit, Ledger, Row};
 pub use product::Product;
 pub use ray_bench::{Along, BenchPlan, Look, RayBench};

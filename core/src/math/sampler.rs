@@ -16,10 +16,10 @@ pub enum SamplerKind {
     Independent,
     /// The first decisions of a path follow a randomly shifted lattice over the pixel's samples: each sample
     /// is as random as before, together they are spread more evenly. The spread of samples then overstates
-    /// the error of their mean.
+    /// the error of their mean. relMSE ×0.54 on the embedded plume at 32 samples, ×0.95 on clouds of many scatterings.
     Lattice,
     /// The same decisions follow an Owen-scrambled Sobol sequence: less even than the lattice, but with no
-    /// structure that a scene could meet badly. The same caveat.
+    /// structure that a scene could meet badly. The same caveat. relMSE ×0.59 on the plume, ×0.9 to 1.07 on the clouds.
     Sobol,
 }
 

@@ -1,7 +1,7 @@
 //! Any path of a view, traced again: random numbers are a function of (seed, pixel, sample).
 
 use crate::estimator::{Entry, Kernel, PathEstimate, PathIndex, Settings};
-use crate::inspect::{Recording, Split, Strategies, StrategyPlan};
+use crate::inspect::{Evidence, Recording, Split, Strategies, StrategyPlan};
 use crate::scene::Scene;
 use crate::transport::Wanted;
 use std::fmt;
@@ -75,16 +75,30 @@ impl Probe {
     /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
     #[must_use]
     pub fn strategies(&self, split: Split, samples: Range<u64>, wanted: Wanted<'_>) -> Option<Strategies> {
-        Strategies::render(
-            &StrategyPlan {
-                scene: &self.scene,
-                kernel: self.kernel,
-                settings: &self.settings,
-                split,
-                samples: (samples.start, samples.end),
-            },
-            wanted,
-        )
+        Strategies::render(&self.plan(split, samples), wanted)
+    }
+
+    /// Why the pixels that are `inside` are noisy, by samples that are taken apart; `None` if there is no noise, or it
+    /// was called off.
+    #[must_use]
+    pub fn evidence(
+        &self,
+        samples: Range<u64>,
+        inside: impl Fn(usize, usize) -> bool,
+        chroma: Option<f64>,
+        wanted: Wanted<'_>,
+    ) -> Option<Evidence> {
+        Evidence::measure(&self.plan(Split::default(), samples), inside, chroma, wanted)
+    }
+
+    fn plan(&self, split: Split, samples: Range<u64>) -> StrategyPlan<'_> {
+        StrategyPlan {
+            scene: &self.scene,
+            kernel: self.kernel,
+            settings: &self.settings,
+            split,
+            samples: (samples.start, samples.end),
+        }
     }
 
     /// The same scene and random numbers under another estimator.

@@ -15,7 +15,8 @@ pub enum WavelengthSampling {
     /// Where the sensor responds most, most often.
     #[default]
     Sensor,
-    /// Uniformly over 360–830 nm, as in the report.
+    /// Uniformly over 360–830 nm, as in the report: relMSE ×2.4 on the embedded plume, with look-ups ×0.7, as many of the
+    /// wavelengths drawn hardly see the medium, nor are seen.
     Uniform,
 }
 

@@ -1,6 +1,6 @@
 //! What an estimator keeps of a path, whichever way it does.
 
-use super::{Collision, Kept, PathWeights, Turn, WeightsApart, WeightsPairwise};
+use super::{Collision, FaultyWeights, Kept, PathSettings, PathWeights, Turn, WeightsApart, WeightsPairwise};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -8,6 +8,12 @@ use crate::spectrum::{Radiance, Sampled};
 pub trait WalkWeights<const N: usize>: Copy {
     /// A path that has just left the camera.
     const CAMERA: Self;
+
+    /// The same, for paths with these settings.
+    #[must_use]
+    fn starting(_: &PathSettings) -> Self {
+        Self::CAMERA
+    }
 
     /// A stretch without collision, of optical depth μ̄ᵢ t by the majorants: e^(−μ̄ᵢ t) for all. The
     /// exponential is taken once for many stretches, when a value is asked for.
@@ -95,6 +101,14 @@ pub struct ApartF64;
 /// Miller's quotients p_i / f_j of all pairs.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairwise;
+
+/// Quotients with a planted mistake.
+#[derive(Clone, Copy, Debug)]
+pub struct Faulty;
+
+impl Books for Faulty {
+    type Weights<const N: usize> = FaultyWeights<N>;
+}
 
 impl Books for Rescaled {
     type Weights<const N: usize> = PathWeights<N>;

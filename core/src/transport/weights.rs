@@ -28,9 +28,9 @@ use crate::spectrum::{Radiance, Sampled};
 /// Contribution and densities of a path, divided by the density with which it was made.
 #[derive(Clone, Copy, Debug)]
 pub struct PathWeights<const N: usize> {
-    contribution: Sampled<N>,
+    pub(super) contribution: Sampled<N>,
     uni: Sampled<N>,
-    nee: Sampled<N>,
+    pub(super) nee: Sampled<N>,
     /// Optical depth by the majorants beyond the hero's, which all three still have to be attenuated by.
     pending: Sampled<N>,
 }

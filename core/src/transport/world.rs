@@ -5,8 +5,8 @@ use crate::light::{Emitter, LobeParts};
 use crate::math::{Ray, Sampler};
 use crate::medium::LocalMedium;
 use crate::scene::{
-    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Heuristics, LightSampling, LightSelection,
-    LightWalk, NearestSurface, Scene, Tracking,
+    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
+    LightSelection, LightWalk, NearestSurface, Scene, Tracking,
 };
 use crate::spectrum::{Components, Radiance, Sampled};
 use crate::surface::Role;
@@ -26,6 +26,8 @@ pub struct PathSettings {
     pub bookkeeping: Bookkeeping,
     /// How spectral tracking draws events.
     pub tracking: Tracking,
+    /// A planted mistake.
+    pub fault: Fault,
     /// Which walk meets the light that unidirectional sampling adds.
     pub light_walk: LightWalk,
     /// Which light a connection goes to.

@@ -1,6 +1,7 @@
 //! Numbers below the pictures. A file and a line in [`TABS`] add a tab.
 
 mod curves;
+mod noise;
 mod parts;
 mod path;
 mod pixel;
@@ -53,6 +54,7 @@ pub const TABS: &[&dyn Tab] = &[
     &path::Path,
     &ray::Ray,
     &parts::Parts,
+    &noise::Noise,
 ];
 
 /// Draws the dock; `chosen` is the id of its tab.

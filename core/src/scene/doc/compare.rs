@@ -247,7 +247,8 @@ impl SceneDoc {
         let mut doc = self.view_doc(0)?;
         doc.estimator.id.clone_from(estimator);
         doc.estimator.absorption = super::Absorption::Weighted;
-        // A reference that is cut off would measure nothing.
+        // A reference that is cut off, or wrong, would measure nothing.
+        doc.estimator.fault = super::Fault::None;
         doc.medium.majorant = MajorantDoc::default();
         doc.render.seed = REFERENCE_SEED;
         (doc.render.spp, doc.render.relative_error) = (*spp, *relative_error);

@@ -7,6 +7,7 @@ mod camera;
 mod coefficients;
 mod compare;
 mod estimator;
+mod fault;
 mod light;
 mod medium;
 mod object;
@@ -25,6 +26,7 @@ pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
     LightSampling, LightWalk, Mode, Tracking,
 };
+pub use fault::{Fault, FaultEntry};
 pub use light::LightDoc;
 pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc};
 pub use object::ObjectDoc;

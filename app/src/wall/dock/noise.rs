@@ -1,0 +1,162 @@
+//! Why the selected view is noisy: who makes the variance, and changes that a click renders beside it.
+
+use super::{Cx, Tab, empty};
+use crate::lab::Command;
+use crate::theme::{Palette, UNIT, view_colour};
+use crate::wall::inspector::NoiseQuestion;
+use egui::{Align, Button, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+use majorant_core::film::Snapshot;
+use majorant_core::inspect::{Evidence, Shares, advise};
+use majorant_core::scene::SceneDoc;
+use std::fmt::Write;
+use std::sync::Arc;
+
+/// See the [module](self).
+pub struct Noise;
+
+/// Samples per pixel that are taken apart, four times over.
+const SPP: u64 = 8;
+/// Parts of a split that are listed.
+const LISTED: usize = 6;
+
+impl Tab for Noise {
+    fn id(&self) -> &'static str {
+        "noise"
+    }
+
+    fn title(&self) -> &'static str {
+        "Noise"
+    }
+
+    fn for_one_view(&self) -> bool {
+        true
+    }
+
+    fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
+        let evidence = evidence(cx, None)?;
+        let mut text = String::from("by,part,share\n");
+        for shares in &evidence.shares {
+            for (name, share) in &shares.parts {
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "{},{name},{share}", shares.split.name());
+            }
+        }
+        Some(text)
+    }
+
+    fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
+        let Some(evidence) = evidence(cx, Some(ui.ctx().clone())) else {
+            let text = if cx.inspector.noise.is_running() {
+                "Samples are being taken apart: by technique, order, null collisions and hero."
+            } else {
+                "No noise was found here."
+            };
+            return empty(ui, text);
+        };
+        let Some(doc) = cx.doc.view_doc(cx.wall.selected()) else { return };
+        let height = ui.available_height();
+        ui.columns(2, |columns| {
+            for column in columns.iter_mut() {
+                column.set_height(height);
+            }
+            ScrollArea::vertical().id_salt("shares").auto_shrink(false).show(&mut columns[0], |ui| {
+                for shares in &evidence.shares {
+                    shares_ui(ui, shares);
+                }
+            });
+            ScrollArea::vertical().id_salt("advice").auto_shrink(false).show(&mut columns[1], |ui| {
+                advice_ui(ui, cx, &doc, &evidence);
+            });
+        });
+    }
+}
+
+/// What was measured of the view, in the box if there is one; anew if `wake` is given and anything has changed.
+fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence>> {
+    let slot = cx.wall.selected_slot()?;
+    let probe = slot.state.probe.clone()?;
+    let region = cx.doc.compare.region;
+    let question = NoiseQuestion { of: (cx.wall.selected(), slot.state.generation), region };
+    let chroma = slot.state.snapshot.as_deref().and_then(|snapshot| chroma_share(snapshot, region));
+    let wake = move || {
+        if let Some(ctx) = wake {
+            ctx.request_repaint();
+        }
+    };
+    let answer = cx.inspector.noise.ask(&question, wake, move |wanted| {
+        probe.evidence(0..SPP, |x, y| inside(region, x, y), chroma, wanted)
+    });
+    answer.filter(|(_, current)| *current).map(|(evidence, _)| evidence)
+}
+
+fn inside(region: Option<[u32; 4]>, x: usize, y: usize) -> bool {
+    region.is_none_or(|[x0, y0, x1, y1]| {
+        (x0 as usize..x1 as usize).contains(&x) && (y0 as usize..y1 as usize).contains(&y)
+    })
+}
+
+/// The share of the variance that is perpendicular to grey.
+fn chroma_share(snapshot: &Snapshot, region: Option<[u32; 4]>) -> Option<f64> {
+    let (mut chroma, mut all) = (0.0, 0.0);
+    for (i, (noise, error)) in snapshot.noise.iter().zip(&snapshot.standard_error).enumerate() {
+        if inside(region, i % snapshot.width, i / snapshot.width) && error.iter().all(|e| e.is_finite()) {
+            chroma += f64::from(noise.chroma_variance);
+            all += error.iter().map(|e| f64::from(*e).powi(2)).sum::<f64>();
+        }
+    }
+    (all > 0.0).then(|| chroma / all)
+}
+
+fn shares_ui(ui: &mut Ui, shares: &Shares) {
+    let palette = Palette::get(ui);
+    ui.label(RichText::new(format!("by {}", shares.split.name())).small().color(palette.strong));
+    for (name, share) in shares.parts.iter().take(LISTED) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = UNIT;
+            let label = Label::new(RichText::new(name).small().color(palette.text)).truncate();
+            ui.add_sized(vec2(112.0, 14.0), label);
+            let room = (ui.available_width() - 52.0).max(20.0);
+            let (rect, _) = ui.allocate_exact_size(vec2(room, 9.0), Sense::hover());
+            ui.painter().rect_filled(rect, 2.0, palette.well);
+            let mut bar = rect;
+            bar.set_width(rect.width() * (share.abs().min(1.0) as f32));
+            // Below zero it takes noise away.
+            let colour = if *share < 0.0 { palette.weak } else { view_colour(0) };
+            ui.painter().rect_filled(bar, 2.0, colour);
+            ui.label(
+                RichText::new(format!("{:.0} %", 100.0 * share)).small().monospace().color(palette.text),
+            );
+        });
+    }
+    ui.add_space(UNIT);
+}
+
+fn advice_ui(ui: &mut Ui, cx: &mut Cx<'_>, doc: &SceneDoc, evidence: &Evidence) {
+    let palette = Palette::get(ui);
+    let place = if cx.doc.compare.region.is_some() { "in the box" } else { "in the whole image" };
+    ui.label(RichText::new(format!("What might help, {place}")).small().color(palette.strong));
+    let advice = advise(doc, evidence);
+    if advice.is_empty() {
+        ui.label(RichText::new("No rule has anything to say: more samples.").small().color(palette.weak));
+    }
+    for (i, advice) in advice.iter().enumerate() {
+        ui.add_space(UNIT);
+        ui.add(Label::new(RichText::new(advice.change).color(palette.text)).wrap());
+        ui.with_layout(Layout::top_down(Align::Min), |ui| {
+            ui.add(
+                Label::new(RichText::new(format!("as {}", advice.because)).small().color(palette.weak))
+                    .wrap(),
+            );
+            let button = ui.add(Button::new(RichText::new("Try it beside").small()));
+            button.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Try advice {}", i + 1))
+            });
+            if button
+                .on_hover_text("One more view with the change; the ranking says what it is worth")
+                .clicked()
+            {
+                cx.commands.push(Command::TryBeside(Box::new(advice.doc.clone())));
+            }
+        });
+    }
+}

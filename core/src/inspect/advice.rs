@@ -1,0 +1,209 @@
+//! Why a picture is noisy, and what might help: rules over measured shares of the variance.
+//!
+//! The evidence is measured, the rules are experience: each advice names what it rests on, and is a document to be
+//! rendered beside the one at hand, which proves or refutes it.
+
+use super::{Split, Strategies, StrategyPlan};
+use crate::math::SamplerKind;
+use crate::phase::Phase;
+use crate::scene::{Absorption, DirectionSampling, LightSampling, LightSelection, Mode, SceneDoc};
+use crate::spectrum::WavelengthSampling;
+use crate::transport::Wanted;
+
+/// The share of each part in the variance of one sample, largest first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shares {
+    /// By what the image is taken apart.
+    pub split: Split,
+    /// Names and shares; they sum to one.
+    pub parts: Vec<(String, f64)>,
+}
+
+/// What is known about the noise of a region.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence {
+    /// Shares by every split.
+    pub shares: Vec<Shares>,
+    /// Share of the variance that is perpendicular to grey, if it is known.
+    pub chroma: Option<f64>,
+}
+
+impl Evidence {
+    /// Takes samples of a scene apart in every way, and sums over the pixels that are `inside`; `None` if there is no
+    /// variance, or it was called off.
+    #[must_use]
+    pub fn measure(
+        plan: &StrategyPlan<'_>,
+        inside: impl Fn(usize, usize) -> bool,
+        chroma: Option<f64>,
+        wanted: Wanted<'_>,
+    ) -> Option<Self> {
+        let mut shares = Vec::new();
+        for split in Split::ALL {
+            let parts = Strategies::render(&StrategyPlan { split, ..*plan }, wanted)?;
+            let of = parts.variance_shares(&inside)?;
+            let names = parts.layers.iter().map(|layer| layer.name.clone());
+            let mut parts: Vec<_> = names.zip(of).collect();
+            parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+            shares.push(Shares { split, parts });
+        }
+        Some(Self { shares, chroma })
+    }
+
+    /// The share of a part, by its name; zero if there is none.
+    #[must_use]
+    pub fn share(&self, split: Split, name: &str) -> f64 {
+        let parts =
+            self.shares.iter().filter(|shares| shares.split == split).flat_map(|shares| &shares.parts);
+        parts.filter(|(known, _)| known == name).map(|(_, share)| share).sum()
+    }
+}
+
+/// A change that might help.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// What it rests on.
+    pub because: String,
+    /// What is changed.
+    pub change: &'static str,
+    /// The document after it.
+    pub doc: SceneDoc,
+}
+
+/// What might make a document's picture less noisy, the most likely first; empty if no rule has anything to say.
+#[must_use]
+pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
+    let mut advice = Vec::new();
+    let mut propose = |because: String, change: &'static str, edit: &dyn Fn(&mut SceneDoc)| {
+        let mut changed = doc.clone();
+        edit(&mut changed);
+        if changed != *doc {
+            advice.push(Advice { because, change, doc: changed });
+        }
+    };
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let estimator = &doc.estimator;
+    let is = |id: &str| estimator.id == id;
+    let walk = evidence.share(Split::Technique, "unidirectional");
+    let connected = evidence.share(Split::Technique, "next-event");
+
+    if let Some(chroma) = evidence.chroma.filter(|chroma| *chroma > 0.3) {
+        let because = format!("{} of the variance is in colour", percent(chroma));
+        if is("independent") {
+            propose(because, "Let all components share each path: spectral MIS", &|doc| {
+                "spectral-mis".clone_into(&mut doc.estimator.id);
+            });
+        } else if estimator.mode == Mode::Spectral && estimator.wavelengths == WavelengthSampling::Uniform {
+            propose(because, "Draw wavelengths where the sensor responds", &|doc| {
+                doc.estimator.wavelengths = WavelengthSampling::Sensor;
+            });
+        }
+    }
+    if estimator.absorption == Absorption::Analogue {
+        let because = "absorption ends paths as an event".to_owned();
+        propose(because, "Weigh absorption instead", &|doc| doc.estimator.absorption = Absorption::Weighted);
+    }
+    if walk > 0.6 && connected == 0.0 && !is("uni-nee-mis") {
+        let because = format!("{} comes from walks that meet light by chance", percent(walk));
+        propose(because, "Connect to the lights as well: Uni+NEE MIS", &|doc| {
+            "uni-nee-mis".clone_into(&mut doc.estimator.id);
+        });
+    }
+    if connected > 0.6 && is("nee") {
+        let because = format!("{} comes from connections", percent(connected));
+        propose(because, "Let walks share them: Uni+NEE MIS", &|doc| {
+            "uni-nee-mis".clone_into(&mut doc.estimator.id);
+        });
+    }
+    if walk > 0.5 && connected > 0.0 && estimator.directions == DirectionSampling::Phase {
+        let because = format!("{} comes from walks that meet light, beside connections", percent(walk));
+        propose(
+            because,
+            "Draw directions from the part of the phase function that sees the lights",
+            &|doc| {
+                doc.estimator.directions = DirectionSampling::Product;
+                doc.estimator.light_sampling = LightSampling::Product;
+            },
+        );
+    }
+    if connected > 0.5
+        && estimator.directions == DirectionSampling::Phase
+        && Phase::new(&doc.medium.phase).mean_cosine() > 0.7
+    {
+        let because = format!("{} comes from connections of sharply forward scattering", percent(connected));
+        propose(because, "Send some of the paths towards the lights", &|doc| {
+            doc.estimator.directions = DirectionSampling::TowardsLights;
+        });
+    }
+    if connected > 0.5 && doc.lights.len() > 1 && estimator.lights == LightSelection::Uniform {
+        let because =
+            format!("{} comes from connections to one of {} lights", percent(connected), doc.lights.len());
+        propose(because, "Choose lights by what they contribute", &|doc| {
+            doc.estimator.lights = LightSelection::Contribution;
+        });
+    }
+    let first: f64 = ["0", "1", "2"].iter().map(|order| evidence.share(Split::Order, order)).sum();
+    if first > 0.6 && estimator.sampler == SamplerKind::Independent {
+        let because = format!("{} is decided within the first two scatterings", percent(first));
+        propose(because, "Spread the first decisions evenly", &|doc| {
+            doc.estimator.sampler = SamplerKind::Sobol;
+        });
+    }
+    let late = evidence.share(Split::Order, "8 and more");
+    if late > 0.3 && estimator.roulette_depth.is_some_and(|depth| depth < 8) {
+        let because =
+            format!("{} comes from eight scatterings on, where roulette strikes early", percent(late));
+        propose(because, "Leave roulette to longer paths", &|doc| doc.estimator.roulette_depth = Some(32));
+    }
+    if doc.medium.majorant.factor < 1.0 {
+        let because = "the majorant does not bound: weights beyond it grow".to_owned();
+        propose(because, "Raise the majorant to its bound", &|doc| doc.medium.majorant.factor = 1.0);
+    }
+    if is("mitsuba2-volpath") || is("spectral-tracking") {
+        let because = "its paths have no densities that could be combined".to_owned();
+        propose(because, "Combine techniques and components: Uni+NEE MIS", &|doc| {
+            "uni-nee-mis".clone_into(&mut doc.estimator.id);
+        });
+    }
+    advice
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn evidence(technique: &[(&str, f64)], order: &[(&str, f64)], chroma: f64) -> Evidence {
+        let named = |parts: &[(&str, f64)]| parts.iter().map(|(n, s)| ((*n).to_owned(), *s)).collect();
+        let shares = vec![
+            Shares { split: Split::Technique, parts: named(technique) },
+            Shares { split: Split::Order, parts: named(order) },
+        ];
+        Evidence { shares, chroma: Some(chroma) }
+    }
+
+    fn changes(doc: &SceneDoc, evidence: &Evidence) -> Vec<&'static str> {
+        let advice = advise(doc, evidence);
+        assert!(advice.iter().all(|a| a.doc != *doc && crate::estimator::validate(&a.doc).is_empty()));
+        advice.into_iter().map(|a| a.change).collect()
+    }
+
+    #[test]
+    fn advice_follows_from_what_was_measured() {
+        let mut doc = SceneDoc::default();
+        let chance = evidence(&[("unidirectional", 1.0)], &[("8 and more", 0.9)], 0.9);
+        doc.estimator.id = "independent".into();
+        assert!(changes(&doc, &chance)[0].contains("spectral MIS"));
+        doc.estimator.id = "spectral-mis".into();
+        assert!(changes(&doc, &chance).iter().any(|c| c.contains("Connect to the lights")));
+        doc.estimator.id = "uni-nee-mis".into();
+        let quiet = evidence(&[("unidirectional", 0.4), ("next-event", 0.4)], &[("8 and more", 0.2)], 0.1);
+        assert_eq!(changes(&doc, &quiet), [""; 0]);
+        doc.estimator.absorption = Absorption::Analogue;
+        doc.medium.majorant.factor = 0.5;
+        let said = changes(&doc, &quiet);
+        assert!(
+            said.len() == 2 && said[0].contains("absorption") && said[1].contains("majorant"),
+            "{said:?}"
+        );
+    }
+}
