@@ -7,6 +7,8 @@ mod bench;
 mod compare;
 #[path = "cli/figures.rs"]
 mod figures;
+#[path = "cli/inspect.rs"]
+mod inspect;
 
 use serde_json::Value;
 use std::path::Path;

@@ -38,14 +38,15 @@ impl Evidence {
         chroma: Option<f64>,
         wanted: Wanted<'_>,
     ) -> Option<Self> {
+        let stride = plan.stride.max(1);
         let mut shares = Vec::new();
-        for split in Split::ALL {
-            let parts = Strategies::render(&StrategyPlan { split, ..*plan }, wanted)?;
-            let of = parts.variance_shares(&inside)?;
+        for parts in Strategies::render_all(plan, &Split::ALL, wanted)? {
+            let of = parts.variance_shares(|x, y| inside(x * stride, y * stride))?;
+            let of_split = parts.split;
             let names = parts.layers.iter().map(|layer| layer.name.clone());
             let mut parts: Vec<_> = names.zip(of).collect();
             parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-            shares.push(Shares { split, parts });
+            shares.push(Shares { split: of_split, parts });
         }
         Some(Self { shares, chroma })
     }

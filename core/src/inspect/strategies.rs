@@ -166,10 +166,18 @@ pub struct StrategyPlan<'a> {
     pub kernel: Kernel,
     /// What the paths are traced with.
     pub settings: &'a Settings,
-    /// By what they are sorted.
-    pub split: Split,
+    /// Every so many columns and rows there is a pixel; 1 for all.
+    pub stride: usize,
     /// The first sample of every pixel, and the one after the last.
     pub samples: (u64, u64),
+}
+
+impl StrategyPlan<'_> {
+    /// Columns and rows that are traced.
+    fn size(&self) -> (usize, usize) {
+        let stride = self.stride.max(1);
+        ((self.scene.width as usize).div_ceil(stride), (self.scene.height as usize).div_ceil(stride))
+    }
 }
 
 /// One part of an image.
@@ -213,54 +221,73 @@ struct Sums {
     products: Vec<f64>,
 }
 
+/// Sorts what one path adds in several ways at once.
+struct Sorters(Vec<Sorter>);
+
+impl Observer for Sorters {
+    fn note(&mut self, note: &Note) {
+        self.0.iter_mut().for_each(|sorter| sorter.note(note));
+    }
+}
+
 impl Strategies {
-    /// Traces and sorts some samples of every pixel; `None` if it was called off.
+    /// Traces some samples of every pixel and sorts what they add; `None` if it was called off.
     #[must_use]
-    pub fn render(plan: &StrategyPlan<'_>, wanted: Wanted<'_>) -> Option<Self> {
-        let (width, height) = (plan.scene.width as usize, plan.scene.height as usize);
-        let rows: Option<Vec<Vec<Sums>>> =
-            (0..height).into_par_iter().map(|y| Self::row(plan, y as u32, width as u32, wanted)).collect();
-        let (first, end) = plan.samples;
-        let n = (end - first).max(1) as f64;
-        let pixels: Vec<Sums> = rows?.into_iter().flatten().collect();
-        let layers = plan.split.layers().into_iter().enumerate().map(|(k, name)| Layer {
-            name,
-            mean: pixels.iter().map(|p| (p.layers[k] / n).as_vec3().to_array()).collect(),
-            covariance: pixels.iter().map(|p| p.covariance(k, n) as f32).collect(),
-        });
-        let seen = |layer: &Layer| layer.mean.iter().any(|p| *p != [0.0; 3]);
-        Some(Self {
-            split: plan.split,
-            width,
-            height,
-            spp: (end - first) as u32,
-            layers: layers.filter(seen).collect(),
-        })
+    pub fn render(plan: &StrategyPlan<'_>, split: Split, wanted: Wanted<'_>) -> Option<Self> {
+        Self::render_all(plan, &[split], wanted)?.pop()
     }
 
-    fn row(plan: &StrategyPlan<'_>, y: u32, width: u32, wanted: Wanted<'_>) -> Option<Vec<Sums>> {
-        let mut sorter = Sorter::new(plan.split);
-        let mut row = Vec::with_capacity(width as usize);
-        for x in 0..width {
-            let mut sums = Sums {
-                layers: vec![DVec3::ZERO; sorter.layers.len()],
-                products: vec![0.0; sorter.layers.len()],
-            };
+    /// The same paths, sorted in several ways.
+    #[must_use]
+    pub fn render_all(plan: &StrategyPlan<'_>, splits: &[Split], wanted: Wanted<'_>) -> Option<Vec<Self>> {
+        let (width, height) = plan.size();
+        let rows: Option<Vec<Vec<Vec<Sums>>>> =
+            (0..height).into_par_iter().map(|y| Self::row(plan, splits, y, wanted)).collect();
+        let pixels: Vec<Vec<Sums>> = rows?.into_iter().flatten().collect();
+        let (first, end) = plan.samples;
+        let n = (end - first).max(1) as f64;
+        let of = |(i, split): (usize, &Split)| {
+            let sums = || pixels.iter().map(move |pixel| &pixel[i]);
+            let layers = split.layers().into_iter().enumerate().map(|(k, name)| Layer {
+                name,
+                mean: sums().map(|p| (p.layers[k] / n).as_vec3().to_array()).collect(),
+                covariance: sums().map(|p| p.covariance(k, n) as f32).collect(),
+            });
+            let seen = |layer: &Layer| layer.mean.iter().any(|p| *p != [0.0; 3]);
+            let layers = layers.filter(seen).collect();
+            Self { split: *split, width, height, spp: (end - first) as u32, layers }
+        };
+        Some(splits.iter().enumerate().map(of).collect())
+    }
+
+    /// The sums of a row, pixel by pixel and split by split.
+    fn row(
+        plan: &StrategyPlan<'_>,
+        splits: &[Split],
+        row: usize,
+        wanted: Wanted<'_>,
+    ) -> Option<Vec<Vec<Sums>>> {
+        let mut sorters = Sorters(splits.iter().map(|split| Sorter::new(*split)).collect());
+        let (width, _) = plan.size();
+        let mut pixels = Vec::with_capacity(width);
+        for column in 0..width {
+            let [x, y] = [column, row].map(|at| (at * plan.stride.max(1)) as u32);
+            let mut sums: Vec<Sums> = sorters.0.iter().map(|sorter| Sums::new(sorter.layers.len())).collect();
             for sample in plan.samples.0..plan.samples.1 {
-                sorter.clear();
-                let company = Company::observed(wanted, &mut sorter);
+                sorters.0.iter_mut().for_each(Sorter::clear);
+                let company = Company::observed(wanted, &mut sorters);
                 let estimate = (plan.kernel)(plan.scene, plan.settings, PathIndex { x, y, sample }, company);
                 // Asked after each path: the estimate of an unwanted one must not be kept.
                 if !wanted.yes() {
                     return None;
                 }
                 if estimate.rgb.is_finite() {
-                    sums.add(&sorter.layers);
+                    sums.iter_mut().zip(&sorters.0).for_each(|(sums, sorter)| sums.add(&sorter.layers));
                 }
             }
-            row.push(sums);
+            pixels.push(sums);
         }
-        Some(row)
+        Some(pixels)
     }
 
     /// The share of each layer in the variance of one sample, over some of the pixels; they sum to one. `None` where
@@ -281,6 +308,10 @@ impl Strategies {
 }
 
 impl Sums {
+    fn new(layers: usize) -> Self {
+        Self { layers: vec![DVec3::ZERO; layers], products: vec![0.0; layers] }
+    }
+
     fn add(&mut self, layers: &[DVec3]) {
         let all: DVec3 = layers.iter().sum();
         for ((sum, product), layer) in self.layers.iter_mut().zip(&mut self.products).zip(layers) {

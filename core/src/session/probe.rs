@@ -24,6 +24,9 @@ impl fmt::Debug for Probe {
     }
 }
 
+/// About so many pixels are taken apart as evidence.
+const EVIDENCE_PIXELS: usize = 20_000;
+
 /// One sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelSample {
@@ -75,7 +78,7 @@ impl Probe {
     /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
     #[must_use]
     pub fn strategies(&self, split: Split, samples: Range<u64>, wanted: Wanted<'_>) -> Option<Strategies> {
-        Strategies::render(&self.plan(split, samples), wanted)
+        Strategies::render(&self.plan(1, samples), split, wanted)
     }
 
     /// Why the pixels that are `inside` are noisy, by samples that are taken apart; `None` if there is no noise, or it
@@ -88,15 +91,18 @@ impl Probe {
         chroma: Option<f64>,
         wanted: Wanted<'_>,
     ) -> Option<Evidence> {
-        Evidence::measure(&self.plan(Split::default(), samples), inside, chroma, wanted)
+        // Whole images are not needed: so many pixels tell the shares to a per cent or two.
+        let pixels = self.scene.width as usize * self.scene.height as usize;
+        let stride = pixels.div_ceil(EVIDENCE_PIXELS).isqrt().max(1);
+        Evidence::measure(&self.plan(stride, samples), inside, chroma, wanted)
     }
 
-    fn plan(&self, split: Split, samples: Range<u64>) -> StrategyPlan<'_> {
+    fn plan(&self, stride: usize, samples: Range<u64>) -> StrategyPlan<'_> {
         StrategyPlan {
             scene: &self.scene,
             kernel: self.kernel,
             settings: &self.settings,
-            split,
+            stride,
             samples: (samples.start, samples.end),
         }
     }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// See the [module](self).
 pub struct Noise;
 
-/// Samples per pixel that are taken apart, four times over.
+/// Samples per pixel that are taken apart.
 const SPP: u64 = 8;
 /// Parts of a split that are listed.
 const LISTED: usize = 6;
@@ -114,7 +114,10 @@ fn shares_ui(ui: &mut Ui, shares: &Shares) {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = UNIT;
             let label = Label::new(RichText::new(name).small().color(palette.text)).truncate();
-            ui.add_sized(vec2(112.0, 14.0), label);
+            ui.allocate_ui_with_layout(vec2(112.0, 14.0), Layout::left_to_right(Align::Center), |ui| {
+                ui.set_min_width(112.0);
+                ui.add(label);
+            });
             let room = (ui.available_width() - 52.0).max(20.0);
             let (rect, _) = ui.allocate_exact_size(vec2(room, 9.0), Sense::hover());
             ui.painter().rect_filled(rect, 2.0, palette.well);

@@ -1,0 +1,61 @@
+//! `majorant path` and `majorant parts`.
+
+use super::{fails, succeeds};
+use serde_json::Value;
+
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&succeeds(arguments)).unwrap()
+}
+
+#[test]
+fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
+    let path = ["path", "plume-spectral", "--pixel", "256,300", "--estimator", "uni-nee-mis"];
+    let table = succeeds(&path);
+    for word in ["leaves the camera", "light is added", "by definition", "on the film", "nm, the hero first"]
+    {
+        assert!(table.contains(word), "{word}: {table}");
+    }
+    let json = json(&[&path[..], &["--json"]].concat());
+    assert_eq!((json["estimator"].as_str(), json["pixel"][1].as_u64()), (Some("uni-nee-mis"), Some(300)));
+    let mut sum = [0.0f32; 4];
+    for credit in json["rows"].as_array().unwrap().iter().map(|row| &row["credit"]) {
+        for (sum, value) in sum.iter_mut().zip(credit["value"].as_array().into_iter().flatten()) {
+            *sum += value.as_f64().unwrap() as f32;
+        }
+    }
+    for (sum, told) in sum.iter().zip(json["sum"].as_array().unwrap()) {
+        assert_eq!(f64::from(*sum), told.as_f64().unwrap());
+    }
+    // The brightest of the first 64, which is what any other of them is not.
+    let film =
+        |json: &Value| json["film"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).sum::<f64>();
+    let first = self::json(&[&path[..], &["--sample", "0", "--json"]].concat());
+    assert!(film(&first) <= film(&json));
+}
+
+#[test]
+fn an_image_is_taken_apart_into_files_and_numbers() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().to_str().unwrap();
+    let small = ["--set", "film.width=32", "film.height=24", "--spp", "8"];
+    let parts = [&["parts", "cloud-sidelit", "--by", "technique", "-o", out, "--json"], &small[..]].concat();
+    let json = json(&parts);
+    let shares: Vec<_> =
+        json["parts"].as_array().unwrap().iter().map(|p| p["variance_share"].as_f64().unwrap()).collect();
+    assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-6 && shares.len() == 2, "{shares:?}");
+    for name in ["unidirectional.png", "next-event.png"] {
+        assert!(directory.path().join(name).metadata().unwrap().len() > 100, "{name}");
+    }
+    assert!(
+        succeeds(&[&["parts", "cloud-sidelit", "--by", "order"], &small[..]].concat()).contains("8 and more")
+    );
+}
+
+#[test]
+fn what_cannot_be_taken_apart_is_explained() {
+    let outside = fails(&["path", "first-light", "--pixel", "9999,0"], 1);
+    assert!(outside.contains("outside of the image"), "{outside}");
+    assert!(fails(&["path", "first-light", "--pixel", "7"], 2).contains("COLUMN,ROW"));
+    assert!(fails(&["parts", "first-light", "--by", "luck"], 2).contains("technique, order, nulls, hero"));
+    assert!(fails(&["parts", "first-light", "--estimator", "magic"], 1).contains("not an estimator"));
+}
