@@ -190,7 +190,7 @@ fn info_describes_volumes_and_scenes() {
 
 #[test]
 fn check_prints_its_table_and_says_what_it_could_have_seen() {
-    let table = succeeds(&["check", "furnace/thin", "half-space/chromatic-roulette"]);
+    let table = succeeds(&["check", "furnace/thin", "half-space/spectral-roulette"]);
     let lines: Vec<_> = table.lines().collect();
     // One estimator has no finite variance in the half-space.
     let rows = 2 * majorant_core::estimator::REGISTRY.len() - 1;

@@ -9,6 +9,8 @@ mod harness;
 mod inspect;
 #[path = "gui/laboratory.rs"]
 mod laboratory;
+#[path = "gui/lessons.rs"]
+mod lessons;
 #[path = "gui/self_check.rs"]
 mod self_check;
 #[path = "gui/speed.rs"]

@@ -11,6 +11,7 @@
 
 pub mod cli;
 pub mod lab;
+pub mod lessons;
 pub mod model;
 pub mod panels;
 pub mod screenshot;

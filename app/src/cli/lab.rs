@@ -18,6 +18,12 @@ pub(super) struct LabArguments {
     /// Inner size of the window, in points.
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<[f32; 2]>,
+    /// A folder of lessons of your own (.md), beside the embedded ones.
+    #[arg(long, value_name = "DIR")]
+    lessons: Option<PathBuf>,
+    /// Open this lesson; with a page, like 2-free-flight:3, there.
+    #[arg(long, value_name = "ID")]
+    lesson: Option<String>,
     /// Colours of the window.
     #[arg(long, value_enum)]
     theme: Option<Theme>,
@@ -42,6 +48,8 @@ pub(super) fn run(arguments: LabArguments) -> Result<(), Failure> {
         screenshot: arguments.screenshot,
         after_seconds: arguments.after,
         window: arguments.window,
+        lessons: arguments.lessons,
+        lesson: arguments.lesson,
         theme: arguments.theme.map(|theme| match theme {
             Theme::Dark => egui::Theme::Dark,
             Theme::Light => egui::Theme::Light,

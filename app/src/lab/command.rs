@@ -1,10 +1,12 @@
 //! Everything that the window can be asked to do. Widgets push commands; `logic` carries them out.
 
+use crate::lessons::Lesson;
 use crate::model::Source;
 use crate::wall::WallEdit;
 use egui::ThemePreference;
 use majorant_core::scene::SceneDoc;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What a file is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +75,14 @@ pub enum Command {
     ShowTab(&'static str),
     /// Opens a comparison that is set up already, by its name.
     OpenPreset(&'static str),
+    /// Opens a lesson, after asking about unsaved changes.
+    OpenLesson(Arc<Lesson>),
+    /// Goes on in it, or back.
+    TurnLesson(isize),
+    /// Takes a prediction down.
+    AnswerLesson(usize),
+    /// Closes it; the scene stays.
+    CloseLesson,
     /// Draws a slice of the majorant's cells over the pictures, or none.
     ShowMajorants(Option<f32>),
     /// Shows the slice in the middle, or hides it.

@@ -20,7 +20,7 @@ const SETTLED_SECONDS: f64 = 0.25;
 
 impl LabApp {
     /// Whether numbers are shown below the pictures that there are.
-    fn dock_shown(&mut self) -> &mut bool {
+    pub(super) fn dock_shown(&mut self) -> &mut bool {
         if self.doc().view_count() > 1 { &mut self.settings.dock } else { &mut self.settings.dock_alone }
     }
 
@@ -195,6 +195,10 @@ impl LabApp {
                 *self.dock_shown() = true;
             }
             Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
+            Command::OpenLesson(lesson) => self.guarded(Command::OpenLesson(lesson)),
+            Command::TurnLesson(by) => self.turn_lesson(by),
+            Command::AnswerLesson(choice) => self.answer_lesson(choice),
+            Command::CloseLesson => self.lesson = None,
             Command::ToggleLargeType => {
                 let large = !self.settings.large_type;
                 self.settings.large_type = large;
@@ -243,6 +247,7 @@ impl LabApp {
         match command {
             Command::Open(source) => self.open(&source),
             Command::OpenPreset(name) => self.open_preset(name),
+            Command::OpenLesson(lesson) => self.open_lesson(lesson),
             Command::Quit => self.quitting = true,
             _ => {}
         }

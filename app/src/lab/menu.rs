@@ -2,6 +2,7 @@
 
 use super::shortcuts::keys_of;
 use super::{Command, LabApp, Purpose};
+use crate::lessons;
 use crate::model::Source;
 use crate::theme::Palette;
 use crate::wall::WallEdit;
@@ -9,6 +10,7 @@ use crate::wall::presets::PRESETS;
 use egui::{Align, Button, Label, Layout, MenuBar, RichText, ThemePreference, Ui};
 use majorant_core::io::embedded;
 use majorant_core::scene::{Arrangement, ToneCurve};
+use std::sync::Arc;
 
 type Commands = Vec<Command>;
 
@@ -22,6 +24,7 @@ impl LabApp {
             });
             ui.menu_button("View", |ui| self.view_ui(ui, commands));
             ui.menu_button("Compare", |ui| self.compare_ui(ui, commands));
+            ui.menu_button("Lessons", |ui| self.lessons_ui(ui, commands));
             ui.menu_button("Inspect", |ui| {
                 for tab in crate::wall::dock::TABS.iter().filter(|tab| tab.for_one_view()) {
                     item(ui, tab.title(), Command::ShowTab(tab.id()), commands);
@@ -122,6 +125,22 @@ impl LabApp {
         ] {
             if ui.radio(self.settings.theme == theme, name).clicked() {
                 commands.push(Command::Theme(theme));
+                ui.close();
+            }
+        }
+    }
+
+    /// Every lesson, with a mark on those that were finished.
+    fn lessons_ui(&self, ui: &mut Ui, commands: &mut Commands) {
+        for lesson in lessons::embedded().iter().chain(&self.own_lessons) {
+            let reached = self.settings.lessons.get(&lesson.id).copied().unwrap_or(0);
+            let mark = match reached {
+                0 => "    ",
+                n if n >= lesson.steps.len() => "✔ ",
+                _ => "›  ",
+            };
+            if ui.button(format!("{mark}{}", lesson.title)).on_hover_text(&lesson.about).clicked() {
+                commands.push(Command::OpenLesson(Arc::clone(lesson)));
                 ui.close();
             }
         }

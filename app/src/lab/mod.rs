@@ -18,6 +18,7 @@ mod files;
 mod help;
 mod icon;
 pub mod latency;
+mod lessons;
 mod loading;
 mod logic;
 mod menu;
@@ -38,6 +39,7 @@ pub use run::{LabError, LabOptions, run};
 pub use stats::Stats;
 pub use tasks::GridLists;
 
+use crate::lessons::{Lesson, Player};
 use crate::model::{Document, Settings, Source};
 use crate::screenshot::Screenshot;
 use crate::theme;
@@ -79,6 +81,8 @@ pub struct LabApp {
     self_check: SelfCheck,
     factor_curve: FactorCurve,
     inspector: Inspector,
+    lesson: Option<Player>,
+    own_lessons: Vec<Arc<Lesson>>,
     /// Since when the scene is being built, if it is.
     building_since: Option<Instant>,
     tasks: Tasks,
@@ -151,6 +155,8 @@ impl LabApp {
             self_check: SelfCheck::default(),
             factor_curve: FactorCurve::default(),
             inspector: Inspector::default(),
+            lesson: None,
+            own_lessons: Vec::new(),
             building_since: None,
             tasks: Tasks::new(move || repaint.request_repaint()),
             grids: GridLists::default(),
@@ -166,6 +172,12 @@ impl LabApp {
             repaint: ctx.clone(),
         };
         app.open_first(options.open.as_ref());
+        if let Some(folder) = &options.lessons {
+            app.add_lessons(folder);
+        }
+        if let Some(named) = &options.lesson {
+            app.open_named_lesson(named);
+        }
         Ok(app)
     }
 

@@ -19,6 +19,10 @@ pub struct LabOptions {
     pub window: Option<[f32; 2]>,
     /// The theme; remembered from the last run if absent.
     pub theme: Option<egui::Theme>,
+    /// A folder of lessons beside the embedded ones.
+    pub lessons: Option<PathBuf>,
+    /// The id of a lesson to open, perhaps with a page: `id:3`.
+    pub lesson: Option<String>,
     /// Whether to use the desktop's file dialogs beside typed paths.
     pub native_dialogs: bool,
 }
@@ -31,6 +35,8 @@ impl Default for LabOptions {
             after_seconds: 4.0,
             window: None,
             theme: None,
+            lessons: None,
+            lesson: None,
             native_dialogs: true,
         }
     }

@@ -6,6 +6,7 @@ use super::help::help_ui;
 use super::messages::line_ui;
 use super::self_check::self_check_ui;
 use super::{Command, LabApp, shortcuts};
+use crate::lessons::{Live, player_ui};
 use crate::panels::{Column, faults};
 use crate::theme::Palette;
 use crate::wall::dock;
@@ -29,8 +30,9 @@ impl LabApp {
         let menu = Panel::top("menu").frame(bar(Margin::symmetric(6, 3))).exact_size(30.0);
         menu.show(ui, |ui| self.menu_ui(ui, &mut commands));
         if let Some(name) = faults::planted(&draft) {
-            let frame =
-                Frame::NONE.fill(palette.error.gamma_multiply(0.22)).inner_margin(Margin::symmetric(12, 4));
+            let frame = Frame::NONE
+                .fill(palette.bar.lerp_to_gamma(palette.error, 0.22))
+                .inner_margin(Margin::symmetric(12, 4));
             Panel::top("fault").frame(frame).show(ui, |ui| fault_ui(ui, name, &mut commands));
         }
         let status = Panel::bottom("status").frame(bar(Margin::symmetric(12, 0))).exact_size(26.0);
@@ -38,7 +40,12 @@ impl LabApp {
         self.messages_ui(ui, &mut commands);
 
         let column = Frame::NONE.fill(palette.panel);
-        if self.settings.scene_column {
+        if let Some(player) = &self.lesson {
+            let panel = Panel::left("lesson").frame(column).default_size(372.0).size_range(320.0..=560.0);
+            let live = Live { wall: &self.wall, inspector: &self.inspector };
+            panel.show(ui, |ui| player_ui(ui, player, &live, &mut commands));
+        }
+        if self.settings.scene_column && self.lesson.is_none() {
             let panel =
                 Panel::left("scene-column").frame(column).default_size(316.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Scene, &mut draft, &mut commands));

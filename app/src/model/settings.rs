@@ -1,6 +1,7 @@
 //! What the window remembers between runs.
 
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Preferences and recent files; stored by eframe beside the window's geometry.
@@ -25,6 +26,8 @@ pub struct Settings {
     pub dock_alone: bool,
     /// Which numbers.
     pub tab: String,
+    /// How many steps of each lesson were taken, by its id.
+    pub lessons: BTreeMap<String, usize>,
     /// Larger type, for projectors.
     pub large_type: bool,
 }
@@ -41,6 +44,7 @@ impl Default for Settings {
             dock: true,
             dock_alone: false,
             tab: "ranking".into(),
+            lessons: BTreeMap::new(),
             large_type: false,
         }
     }

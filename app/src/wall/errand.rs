@@ -81,6 +81,12 @@ impl<Q: PartialEq + Clone, A: Send + Sync + 'static> Errand<Q, A> {
         Some((Arc::clone(answer.as_ref()?), of == question))
     }
 
+    /// The newest answer, whatever it is of.
+    #[must_use]
+    pub fn newest(&self) -> Option<&Arc<A>> {
+        self.done.as_ref()?.1.as_ref()
+    }
+
     /// Whether an answer is being worked out.
     #[must_use]
     pub fn is_running(&self) -> bool {

@@ -92,7 +92,7 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
     fn kept(&self) -> Kept {
         let of_hero = |quotients: [Sampled<N>; N]| Sampled(quotients.map(|row| row.hero())).lanes();
         let (uni, nee) = (of_hero(self.uni), of_hero(self.nee));
-        Kept { names: ["p_uni/f₁", "p_nee/f₁", "p_uni,₁/f"], values: [uni, nee, self.uni[0].lanes()] }
+        Kept { names: ["p_uni/f1", "p_nee/f1", "p_uni1/f"], values: [uni, nee, self.uni[0].lanes()] }
     }
 
     fn is_dark(&self) -> bool {

@@ -70,7 +70,6 @@ impl Tab for Ray {
 }
 
 fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let palette = Palette::get(ui);
     let mode = cx.doc.view_doc(cx.wall.selected()).map_or(Mode::Spectral, |doc| doc.estimator.mode);
     let state = &mut cx.inspector.ray;
     ui.horizontal_wrapped(|ui| {
@@ -102,17 +101,8 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             }
         });
         combo.response.accessible_name("Estimator of transmittance");
-        match state.through {
-            Through::Pixel => component_ui(ui, state, mode),
-            Through::Shape(_) => {
-                let number = |text: &str| RichText::new(text).small().color(palette.weak);
-                ui.label(number("μ"));
-                ui.add(DragValue::new(&mut state.extinction).range(0.1..=40.0).speed(0.05));
-                ui.label(number("cells"));
-                ui.add(DragValue::new(&mut state.cells).range(1..=64).speed(0.1));
-                ui.label(number("majorant ×"));
-                ui.add(DragValue::new(&mut state.factor).range(0.3..=10.0).speed(0.01));
-            }
+        if state.through == Through::Pixel {
+            component_ui(ui, state, mode);
         }
         let again = Button::new(RichText::new("Another").small());
         if ui.add(again).on_hover_text("Shows another one of the estimates step by step").clicked() {
@@ -122,13 +112,33 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             ui.spinner();
         }
     });
+    if state.through != Through::Pixel {
+        ui.horizontal(|ui| shape_ui(ui, state));
+    }
+}
+
+/// The numbers of a shape, each with its name.
+fn shape_ui(ui: &mut Ui, state: &mut RayState) {
+    let weak = Palette::get(ui).weak;
+    let number = |ui: &mut Ui, text: &str, name: &str, value: DragValue<'_>| {
+        ui.label(RichText::new(text).small().color(weak));
+        ui.add(value).accessible_name(name);
+    };
+    let extinction = DragValue::new(&mut state.extinction).range(0.1..=40.0).speed(0.05);
+    number(ui, "μ", "Largest extinction", extinction);
+    let cells = DragValue::new(&mut state.cells).range(1..=64).speed(0.1);
+    number(ui, "cells", "Cells of the majorant", cells);
+    let factor = DragValue::new(&mut state.factor).range(0.3..=10.0).speed(0.01);
+    number(ui, "majorant ×", "Majorant over the bound", factor);
 }
 
 fn component_ui(ui: &mut Ui, state: &mut RayState, mode: Mode) {
     match mode {
         Mode::Spectral => {
             let value = DragValue::new(&mut state.lambda_nm).range(380.0..=780.0).speed(1.0).suffix(" nm");
-            ui.add(value).on_hover_text("The wavelength that the extinction is taken at");
+            ui.add(value)
+                .accessible_name("Wavelength")
+                .on_hover_text("The wavelength that the extinction is taken at");
         }
         Mode::Rgb => {
             for (channel, name) in ["R", "G", "B"].into_iter().enumerate() {

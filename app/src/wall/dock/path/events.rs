@@ -137,7 +137,7 @@ fn detail_ui(ui: &mut Ui, row: &Row, names: [&str; 3], count: usize, defined: bo
                 ui,
                 format!("μs {}   μn {}", values(&found.scattering[..count]), values(&found.null[..count])),
             );
-            weak(ui, format!("μ̄  {}", values(&found.majorant[..count])));
+            weak(ui, format!("majorant {}", values(&found.majorant[..count])));
         }
         (Step::Leave(value, density), ..) => {
             weak(

@@ -1,0 +1,289 @@
+//! The file of a lesson: Markdown with headers that say what each step sets.
+//!
+//! ```text
+//!   +++
+//!   title = "Beer and Lambert"
+//!   about = "One line for the list."
+//!   +++ predict
+//!   scene = "furnace"
+//!   set = ["medium.extinction=2"]
+//!   choices = ["half", "a quarter"]
+//!   right = 1
+//!   +++
+//!   What will be left after another unit?
+//!   +++ see
+//!   …
+//! ```
+//!
+//! Between `+++ kind` and the next `+++` stands TOML, then the step's text.
+
+use super::live;
+use crate::wall::dock::TABS;
+use majorant_core::io::{embedded, scene_file};
+use majorant_core::scene::SceneDoc;
+use majorant_core::transmittance::{Shape, TransmittanceKind};
+use serde::Deserialize;
+
+/// What a step is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The reader commits to an answer.
+    Predict,
+    /// The lab shows it.
+    See,
+    /// The text says why.
+    Explain,
+}
+
+impl Stage {
+    /// Name for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Predict => "Predict",
+            Self::See => "See",
+            Self::Explain => "Explain",
+        }
+    }
+
+    fn find(text: &str) -> Option<Self> {
+        [Self::Predict, Self::See, Self::Explain].into_iter().find(|s| s.name().eq_ignore_ascii_case(text))
+    }
+}
+
+/// What the ray on the bench is set to.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RaySet {
+    /// A shape's name, or absent for the pixel's ray.
+    pub through: Option<String>,
+    /// Largest extinction of a shape.
+    pub extinction: Option<f32>,
+    /// Cells of its majorant.
+    pub cells: Option<u32>,
+    /// Its majorant over the least bound.
+    pub factor: Option<f32>,
+    /// The estimator's id.
+    pub kind: Option<String>,
+}
+
+/// What a step does to the lab. Absent keys leave things as they are.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Stop {
+    /// An embedded scene to begin from; the next step goes on from the last step's.
+    pub scene: Option<String>,
+    /// Keys of the scene, as on the command line.
+    pub set: Vec<String>,
+    /// So many views.
+    pub views: Option<usize>,
+    /// The tab below the pictures; `none` for no numbers at all.
+    pub tab: Option<String>,
+    /// The pixel that is picked.
+    pub pick: Option<[usize; 2]>,
+    /// The ray bench.
+    pub ray: Option<RaySet>,
+    /// Answers to choose from.
+    pub choices: Vec<String>,
+    /// Which of them is right, from 0.
+    pub right: usize,
+}
+
+/// A step: what it is for, what it sets, and its text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What it is for.
+    pub stage: Stage,
+    /// What it sets.
+    pub stop: Stop,
+    /// Markdown.
+    pub text: String,
+}
+
+/// A lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lesson {
+    /// The file's name without its ending.
+    pub id: String,
+    /// Its title.
+    pub title: String,
+    /// One line for the list.
+    pub about: String,
+    /// Its steps, at least one.
+    pub steps: Vec<Step>,
+}
+
+/// A lesson that cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{file}, line {line}: {reason}")]
+pub struct LessonError {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// What is wrong, and the cure.
+    pub reason: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Head {
+    title: String,
+    #[serde(default)]
+    about: String,
+}
+
+/// A header with the lines after it.
+struct Part<'a> {
+    line: usize,
+    kind: &'a str,
+    toml: String,
+    text: String,
+}
+
+fn parts(source: &str) -> Vec<Part<'_>> {
+    let mut parts: Vec<Part<'_>> = Vec::new();
+    let mut in_header = false;
+    for (number, line) in source.lines().enumerate() {
+        match line.strip_prefix("+++") {
+            // The header of a part ends where the next mark has no kind.
+            Some(rest) if in_header && rest.trim().is_empty() => in_header = false,
+            Some(rest) => {
+                in_header = true;
+                parts.push(Part {
+                    line: number + 1,
+                    kind: rest.trim(),
+                    toml: String::new(),
+                    text: String::new(),
+                });
+            }
+            None => {
+                if let Some(part) = parts.last_mut() {
+                    let to = if in_header { &mut part.toml } else { &mut part.text };
+                    to.push_str(line);
+                    to.push('\n');
+                }
+            }
+        }
+    }
+    parts
+}
+
+impl Lesson {
+    /// Reads a lesson; `id` is its file's name without the ending.
+    ///
+    /// # Errors
+    /// When a header is damaged, names what does not exist, or there is no step.
+    pub fn parse(id: &str, source: &str) -> Result<Self, LessonError> {
+        let error = |line: usize, reason: String| LessonError { file: format!("{id}.md"), line, reason };
+        let parts = parts(source);
+        let mut parts = parts.iter();
+        let head = parts.next().filter(|part| part.kind.is_empty());
+        let head = head.ok_or_else(|| error(1, "a lesson begins with +++, a title and +++".into()))?;
+        let Head { title, about } =
+            toml::from_str(&head.toml).map_err(|e| error(head.line, e.message().into()))?;
+        let mut steps = Vec::new();
+        for part in parts {
+            let stage = Stage::find(part.kind).ok_or_else(|| {
+                error(part.line, format!("`{}` is no kind of step: predict, see or explain", part.kind))
+            })?;
+            let stop: Stop = toml::from_str(&part.toml).map_err(|e| error(part.line, e.message().into()))?;
+            if !stop.choices.is_empty() && stop.right >= stop.choices.len() {
+                return Err(error(part.line, "`right` counts from 0, and names one of the choices".into()));
+            }
+            stop.check().map_err(|reason| error(part.line, reason))?;
+            if let Some(name) = live::names(&part.text).find(|name| !live::NAMES.contains(name)) {
+                return Err(error(part.line, format!("`{name}` is no number: {}", live::NAMES.join(", "))));
+            }
+            steps.push(Step { stage, stop, text: part.text.trim().to_owned() });
+        }
+        if steps.is_empty() {
+            return Err(error(1, "it has no step: begin one with +++ see".into()));
+        }
+        let lesson = Self { id: id.to_owned(), title, about, steps };
+        // Every scene of it has to be there before anybody is led to it.
+        let mut doc = SceneDoc::default();
+        for (i, step) in lesson.steps.iter().enumerate() {
+            doc = step.stop.scene(&doc).map_err(|reason| error(1, format!("step {}: {reason}", i + 1)))?;
+        }
+        Ok(lesson)
+    }
+
+    /// The scene that a step shows: what all steps up to it have set.
+    #[must_use]
+    pub fn scene_at(&self, step: usize) -> Option<SceneDoc> {
+        let mut doc = SceneDoc::default();
+        for step in self.steps.get(..=step)? {
+            doc = step.stop.scene(&doc).ok()?;
+        }
+        Some(doc)
+    }
+}
+
+impl Stop {
+    /// Whether everything that it names exists, but for the scene.
+    fn check(&self) -> Result<(), String> {
+        let known = |what: &str, name: &Option<String>, all: Vec<&str>| match name {
+            Some(name) if !all.contains(&name.as_str()) => {
+                Err(format!("`{name}` is no {what}: {}", all.join(", ")))
+            }
+            _ => Ok(()),
+        };
+        known("tab", &self.tab, TABS.iter().map(|tab| tab.id()).chain(["none"]).collect())?;
+        let ray = self.ray.clone().unwrap_or_default();
+        known("shape", &ray.through, Shape::ALL.iter().map(|shape| shape.name()).collect())?;
+        let kinds = TransmittanceKind::all();
+        known("estimator of transmittance", &ray.kind, kinds.iter().map(|kind| kind.entry().id).collect())
+    }
+
+    /// The scene after this step, from the one before it.
+    fn scene(&self, before: &SceneDoc) -> Result<SceneDoc, String> {
+        let mut doc = match &self.scene {
+            None => before.clone(),
+            Some(name) => {
+                let scene =
+                    embedded::find(name).ok_or_else(|| format!("there is no embedded scene `{name}`"))?;
+                scene_file::parse(scene.toml, scene.name).map_err(|e| e.to_string())?
+            }
+        };
+        if let Some(views) = self.views {
+            doc = crate::wall::edited(&doc, &crate::wall::WallEdit::Count(views));
+        }
+        let doc = scene_file::override_keys(&doc, &self.set).map_err(|e| e.to_string())?;
+        match majorant_core::estimator::validate(&doc).first() {
+            Some(problem) => Err(problem.to_string()),
+            None => Ok(doc),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TWO: &str = "+++\ntitle = \"T\"\n+++ predict\nscene = \"furnace\"\nchoices = [\"a\", \"b\"]\nright = 1\n+++\nHow much?\n+++ see\nset = [\"medium.albedo=0.5\"]\n+++\nThis.\n";
+
+    #[test]
+    fn steps_are_read_and_scenes_add_up() {
+        let lesson = Lesson::parse("two", TWO).unwrap();
+        assert_eq!((lesson.title.as_str(), lesson.steps.len()), ("T", 2));
+        assert_eq!((lesson.steps[0].stage, lesson.steps[1].text.as_str()), (Stage::Predict, "This."));
+        let [first, second] = [0, 1].map(|i| lesson.scene_at(i).unwrap());
+        assert!(first.title == second.title && first.medium.albedo != second.medium.albedo);
+        assert!(lesson.scene_at(2).is_none());
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_line() {
+        let said = |source: &str| Lesson::parse("x", source).unwrap_err().to_string();
+        assert!(said("hello").contains("begins with +++"));
+        assert!(said("+++\ntitle = \"T\"\n+++").contains("no step"));
+        assert!(said(&TWO.replace("+++ see", "+++ look")).contains("line 9: `look` is no kind"));
+        assert!(said(&TWO.replace("right = 1", "right = 2")).contains("counts from 0"));
+        assert!(said(&TWO.replace("furnace", "moon")).contains("step 1: there is no embedded scene `moon`"));
+        assert!(said(&TWO.replace("albedo=0.5", "albedo=7")).contains("step 2"));
+        assert!(said(&TWO.replace("This.", "{{luck}}")).contains("`luck` is no number"));
+        assert!(said(&TWO.replace("right = 1", "right = 1\ntab = \"moon\"")).contains("`moon` is no tab"));
+        assert!(said(&TWO.replace("choices", "options")).contains("options"));
+    }
+}

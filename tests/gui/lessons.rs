@@ -1,0 +1,73 @@
+//! Lessons, read from the first page to the last without a mouse.
+
+use super::harness::{Lab, doc, lab, wait};
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT, Queryable};
+use majorant::lab::Command;
+use majorant::lessons::embedded;
+use std::sync::Arc;
+
+/// Moves the focus with Tab until it is on a choice, and takes that with the space bar.
+fn choose(lab: &mut Lab, label: &str) {
+    for _ in 0..200 {
+        lab.key_press(Key::Tab);
+        lab.step();
+        if lab.get_by_role_and_label(Role::RadioButton, label).accesskit_node().is_focused() {
+            lab.key_press(Key::Space);
+            lab.run_steps(2);
+            return;
+        }
+    }
+    panic!("{label} cannot be reached by the keyboard");
+}
+
+#[test]
+fn every_lesson_is_played_through_by_keyboard() {
+    let (mut lab, _directory) = lab();
+    for lesson in embedded() {
+        lab.state_mut().request(Command::OpenLesson(Arc::clone(lesson)));
+        lab.run_steps(3);
+        for (i, step) in lesson.steps.iter().enumerate() {
+            let what = format!("{}, step {}", lesson.id, i + 1);
+            let player = lab.state().lesson().unwrap_or_else(|| panic!("{what} is not open"));
+            assert_eq!((player.lesson.id.as_str(), player.step), (lesson.id.as_str(), i), "{what}");
+            assert_eq!(*doc(&lab), lesson.scene_at(i).expect("a scene"), "{what}");
+            assert!(!lab.state().is_modified(), "{what}: nothing of a lesson is an unsaved change");
+            lab.check_accessibility();
+            if let Some(right) = step.stop.choices.get(step.stop.right) {
+                lab.key_press(Key::PageDown);
+                lab.run_steps(2);
+                assert_eq!(lab.state().lesson().map(|p| p.step), Some(i), "{what}: predict first");
+                choose(&mut lab, right);
+                assert!(lab.query_by_label_contains("So it is.").is_some(), "{what}");
+            }
+            // The focus may be in a number; a page is turned from the text.
+            lab.key_press(Key::Escape);
+            lab.run_steps(2);
+            lab.key_press(Key::PageDown);
+            lab.run_steps(3);
+        }
+        assert!(lab.state().lesson().is_none(), "{} is finished", lesson.id);
+    }
+}
+
+#[test]
+fn numbers_in_a_lesson_are_those_of_the_lab() {
+    let (mut lab, _directory) = lab();
+    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[0])));
+    lab.run_steps(3);
+    lab.state_mut().request(Command::AnswerLesson(2));
+    lab.state_mut().request(Command::TurnLesson(1));
+    lab.run_steps(3);
+    wait(&mut lab, "the ray", |app| {
+        let bench = app.inspector().ray.errand.newest();
+        bench.is_some_and(|bench| (bench.truth() - (-2.0f64).exp()).abs() < 1e-6)
+    });
+    lab.run_steps(3);
+    let truth = format!("ends at {:.4}", (-2.0f64).exp());
+    assert!(lab.query_by_label_contains(&truth).is_some(), "{truth}");
+    lab.state_mut().request(Command::CloseLesson);
+    lab.run_steps(2);
+    assert!(lab.state().lesson().is_none());
+}
