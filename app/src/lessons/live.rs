@@ -11,6 +11,8 @@ pub const NAMES: &[&str] = &[
     "ray.error",
     "ray.lookups",
     "ray.spread",
+    "A.lost",
+    "B.lost",
     "A.lookups",
     "B.lookups",
     "A.speedup",
@@ -74,6 +76,11 @@ impl Live<'_> {
             return ratio.is_finite().then(|| format!("{ratio:.2}"));
         }
         let (view, what) = name.split_once('.')?;
+        if what == "lost" {
+            let which = usize::from(view == "B");
+            let snapshot = self.wall.slots().get(which)?.state.snapshot.as_ref()?;
+            return Some(snapshot.tally.non_finite.to_string());
+        }
         let standing = self.standing(view)?;
         Some(match what {
             "lookups" => format!("{:.2}", standing.lookups_per_path),

@@ -14,9 +14,13 @@ static EMBEDDED: &[(&str, &str)] = embedded![
     "1-beer-and-lambert",
     "2-free-flight",
     "3-majorants",
-    "4-nee-or-unidirectional",
-    "5-absorption",
-    "6-biased-or-noisy",
+    "4-colour-and-the-hero",
+    "5-nee-or-unidirectional",
+    "6-what-mis-decides",
+    "7-absorption",
+    "8-when-numbers-overflow",
+    "9-biased-or-noisy",
+    "10-a-fireflys-autopsy",
 ];
 
 /// The embedded lessons, in their order.
