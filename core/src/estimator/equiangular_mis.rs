@@ -10,6 +10,10 @@
 //! thin medium, whose collisions rarely happen where the light is strong: on the embedded lanterns 2.9 times the
 //! efficiency of Uni+NEE MIS. Distant lights have no place, and leave Uni+NEE MIS.
 //! Kulla and Fajardo 2012, section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 4.2, 22 and 22 look-
+//! ups per path; relMSE 1.0, 0.93 and 0.99 times that of Uni+NEE MIS, in 1.3 to 1.8 of its time: none of these has
+//! a small light close by.
 
 use super::{
     Axis, Entry, Estimator, HERO_DRAWS, NO_FAULTS, ONE_WALK, PathEstimate, PathIndex, RESCALED, Settings,

@@ -8,6 +8,9 @@
 //! afterwards light that it meets is ignored, as connections account for it. Good for small lights
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and 14.2
+//! look-ups per path; relMSE 1.05, 1.9 and 450 times that of Uni+NEE MIS, in about its time.
 
 use super::{
     Entry, Estimator, HERO_DRAWS, NO_FAULTS, ONE_TECHNIQUE, ONE_WALK, RESCALED, biased_transmittance,

@@ -9,6 +9,9 @@
 //! makes this possible in heterogeneous media. Good where the phase function finds the light: large
 //! lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 1.2, 2.8 and 2.9 look-
+//! ups per path; relMSE 1.3, 4.3 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.5 of its time.
 
 use super::{
     Entry, Estimator, HERO_DRAWS, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,

@@ -11,6 +11,9 @@
 //! Wins over hero wavelengths where components differ little; loses where one is far denser, as all of
 //! them then pay for its collisions. Kutz, Habel, Li and Novák 2017, "Spectral and decomposition tracking for rendering
 //! heterogeneous volumes", section 5.1, algorithm 4.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.4, 2.8 and 2.9 look-
+//! ups per path; relMSE 0.87, 3.9 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.7 of its time.
 
 use super::{
     Axis, Entry, Estimator, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,

@@ -10,6 +10,9 @@
 //! continuing walk *is* the unidirectional sample: if it meets light without another real event, it
 //! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
 //! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and 14.2
+//! look-ups per path; relMSE what the other estimators' files are relative to.
 
 use super::{
     Axis, Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch,
