@@ -101,6 +101,8 @@ fn an_image_is_taken_apart_every_way() {
         assert!(!parts.layers.is_empty());
         lab.check_accessibility();
     }
+    click(&mut lab, Role::Button, "Parts as weights");
+    assert!(lab.state().inspector().parts.hung_as_shares);
     click(&mut lab, Role::Button, "Play");
     assert!(lab.state().inspector().parts.playing.is_some());
 }

@@ -5,6 +5,7 @@ use majorant_core::estimator::Entry;
 use majorant_core::inspect::{BenchPlan, Evidence, Ledger, RayBench, Recording, Split, Strategies};
 use majorant_core::scene::CameraDoc;
 use majorant_core::transmittance::{Shape, TransmittanceKind};
+use std::sync::Arc;
 
 /// A path that is replayed.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,16 @@ pub struct Replayed {
     pub ledger: Ledger,
 }
 
+/// What the ray of a path's event leads through.
+pub struct Segment {
+    /// Of which path.
+    pub of: Arc<Replayed>,
+    /// The note that has begun the ray.
+    pub began: usize,
+    /// Extinction and majorants; none where the ray misses the medium.
+    pub bench: Option<RayBench>,
+}
+
 /// See `dock/path`.
 #[derive(Default)]
 pub struct PathState {
@@ -42,6 +53,8 @@ pub struct PathState {
     pub scroll: bool,
     /// Where the path is looked at from; as the scene's camera stands at first.
     pub eye: Option<CameraDoc>,
+    /// What the chosen event's ray leads through.
+    pub segment: Option<Segment>,
     /// The pixel that all this is about.
     pub pixel: Option<[usize; 2]>,
 }
@@ -69,9 +82,13 @@ pub struct PartsState {
     /// Textures of the parts, and which answer they are of.
     pub hung: Vec<egui::TextureHandle>,
     /// The answer that hangs.
-    pub hung_of: Option<std::sync::Arc<Strategies>>,
+    pub hung_of: Option<Arc<Strategies>>,
     /// The exposure that it hangs in.
     pub exposure: f32,
+    /// Whether each pixel shows its share of the light instead of light.
+    pub as_shares: bool,
+    /// Whether it hangs so.
+    pub hung_as_shares: bool,
     /// Since when the parts are shown one after another, in egui's time; none while they stand.
     pub playing: Option<f64>,
 }

@@ -64,7 +64,9 @@ pub struct Look {
 /// A ray on the bench.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayBench {
-    /// From where the medium begins to where it ends.
+    /// From the ray's origin to where the medium begins.
+    pub start: f32,
+    /// From there to where it ends.
     pub length: f32,
     /// Extinction at even steps: (t, μ).
     pub extinction: Vec<[f32; 2]>,
@@ -177,9 +179,10 @@ impl RayBench {
         plan: &BenchPlan,
         wanted: Wanted<'_>,
     ) -> Option<Self> {
-        let (_, inside) = BoxRay::enter(ray, &scene.medium_from_world, f32::INFINITY)?;
+        let (start, inside) = BoxRay::enter(ray, &scene.medium_from_world, f32::INFINITY)?;
         let local = medium.local::<1, _>(components);
-        Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, wanted)
+        let bench = Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, wanted)?;
+        Some(Self { start, ..bench })
     }
 
     fn of<P: Profile<1>>(
@@ -233,6 +236,7 @@ impl RayBench {
         let variance =
             estimates.iter().map(|e| (f64::from(*e) - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
         Some(Self {
+            start: 0.0,
             length,
             extinction,
             majorants: pieces

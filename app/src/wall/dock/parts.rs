@@ -98,6 +98,19 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
                 }
             });
         combo.response.accessible_name("Samples per pixel");
+        for (as_shares, name, tip) in [
+            (false, "light", "What each part adds, as the picture is shown"),
+            (true, "weights", "Each pixel's share of the light: by technique, what MIS weighs it with on average"),
+        ] {
+            let on = state.as_shares == as_shares;
+            let response = ui.add(Button::selectable(on, RichText::new(name).small())).on_hover_text(tip);
+            response.widget_info(|| {
+                egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("Parts as {name}"))
+            });
+            if response.clicked() {
+                state.as_shares = as_shares;
+            }
+        }
         let playing = state.playing.is_some();
         let text = if playing { "Stop" } else { "Play" };
         let play = ui.add(Button::new(RichText::new(text).small())).on_hover_text("One part after another");
@@ -134,12 +147,24 @@ fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
 fn hang(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
     let state = &mut cx.inspector.parts;
     let same = state.hung_of.as_ref().is_some_and(|hung| Arc::ptr_eq(hung, parts));
-    if same && state.exposure == view.exposure_ev {
+    if same && state.exposure == view.exposure_ev && state.hung_as_shares == state.as_shares {
         return;
     }
+    state.hung_as_shares = state.as_shares;
     let display = DisplayTransform::new(view);
+    let grey = |rgb: &[f32; 3]| rgb.iter().sum::<f32>();
+    let whole = |i: usize| parts.layers.iter().map(|layer| grey(&layer.mean[i])).sum::<f32>();
+    let as_shares = state.as_shares;
+    let shown = |(i, rgb): (usize, &[f32; 3])| {
+        if !as_shares {
+            return display.encode(*rgb);
+        }
+        // What brings no light has no share.
+        let share = grey(rgb) / whole(i).max(f32::MIN_POSITIVE);
+        [(share.clamp(0.0, 1.0) * 255.0) as u8; 3]
+    };
     let texture = |(k, layer): (usize, &majorant_core::inspect::Layer)| {
-        let bytes: Vec<u8> = layer.mean.iter().flat_map(|rgb| display.encode(*rgb)).collect();
+        let bytes: Vec<u8> = layer.mean.iter().enumerate().flat_map(shown).collect();
         let image = ColorImage::from_rgb([parts.width, parts.height], &bytes);
         ui.ctx().load_texture(format!("part {k}"), image, TextureOptions::LINEAR)
     };

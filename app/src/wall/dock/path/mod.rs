@@ -4,6 +4,7 @@
 
 mod events;
 mod list;
+mod segment;
 mod space;
 
 use super::{Cx, Tab, empty};
@@ -82,7 +83,10 @@ impl Tab for Path {
             return empty(&mut part(ui, rest), "The path is being traced again.");
         };
         keys(ui, cx, replayed.ledger.rows.len());
-        space::space_ui(&mut part(ui, middle.with_max_x(middle.right() - 6.0)), cx, &replayed);
+        let middle = middle.with_max_x(middle.right() - 6.0);
+        let (above, below) = middle.split_top_bottom_at_y(middle.bottom() - segment::HEIGHT);
+        space::space_ui(&mut part(ui, above.with_max_y(above.bottom() - 4.0)), cx, &replayed);
+        segment::segment_ui(ui, cx, &replayed, below);
         events::events_ui(&mut part(ui, right), cx, &replayed);
         ui.advance_cursor_after_rect(room);
     }
