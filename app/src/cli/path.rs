@@ -77,6 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for (i, row) in ledger.rows.iter().enumerate() {
         print_line(&line(i, row, ledger.carried.count()))?;
     }
+    if !recording.complete {
+        print_line("  … and so on: a path this long is cut off here, its end is not")?;
+    }
     let film = ledger.film;
     print_line(&format!("on the film: {} {} {} (linear sRGB)", film.x, film.y, film.z))
 }

@@ -11,21 +11,36 @@ pub struct Recording {
     pub at: PathIndex,
     /// What it was traced with.
     pub settings: Settings,
-    /// Its steps, from the camera to its end.
+    /// Its steps, from the camera to its end; of a path that never seems to end the first [`Self::MOST_NOTES`], and its
+    /// end.
     pub notes: Vec<Note>,
+    /// Whether these are all.
+    pub complete: bool,
     /// Its estimate, as the film has received it.
     pub estimate: PathEstimate,
 }
 
-struct Notes(Vec<Note>);
+#[derive(Default)]
+struct Notes {
+    taken: Vec<Note>,
+    left_out: bool,
+}
 
 impl Observer for Notes {
     fn note(&mut self, note: &Note) {
-        self.0.push(*note);
+        // Deep in a dense medium a single path may have millions of collisions.
+        if self.taken.len() < Recording::MOST_NOTES || matches!(note, Note::End { .. }) {
+            self.taken.push(*note);
+        } else {
+            self.left_out = true;
+        }
     }
 }
 
 impl Recording {
+    /// The most steps that are kept.
+    pub const MOST_NOTES: usize = 50_000;
+
     /// Replays a path with the random numbers that it has; meaningless if it is not wanted any more.
     #[must_use]
     pub fn new(
@@ -35,8 +50,43 @@ impl Recording {
         at: PathIndex,
         wanted: Wanted<'_>,
     ) -> Self {
-        let mut notes = Notes(Vec::new());
+        let mut notes = Notes::default();
         let estimate = kernel(scene, settings, at, Company::observed(wanted, &mut notes));
-        Self { at, settings: *settings, notes: notes.0, estimate }
+        Self { at, settings: *settings, notes: notes.taken, complete: !notes.left_out, estimate }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::find;
+    use crate::io::{Library, scene_file};
+    use crate::scene::build;
+
+    /// Hundreds of mean free paths of albedo 1 to every side, the camera in the middle.
+    #[test]
+    fn a_path_that_hardly_ends_is_cut_off_and_keeps_its_estimate() {
+        let doc = scene_file::parse(
+            "majorant = 1
+            [camera]
+            origin = [0.0, 0.0, 0.0]
+            target = [0.0, 0.0, -1.0]
+            [medium]
+            extinction = 400.0
+            albedo = 1.0
+            [[lights]]
+            kind = \"environment\"",
+            "dense",
+        );
+        let doc = doc.unwrap();
+        let scene = build(&doc, &mut Library::default()).unwrap();
+        let settings = Settings::new(&doc.estimator, 1);
+        let kernel = find("spectral-mis").unwrap().kernel;
+        let at = PathIndex { x: 0, y: 0, sample: 0 };
+        let recording = Recording::new(&scene, kernel, &settings, at, Wanted::ALWAYS);
+        assert!(!recording.complete && recording.notes.len() == Recording::MOST_NOTES + 1);
+        assert!(
+            matches!(recording.notes.last(), Some(Note::End { film, .. }) if *film == recording.estimate.rgb)
+        );
     }
 }

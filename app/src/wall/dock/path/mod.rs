@@ -189,6 +189,10 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
             }
         });
         combo.response.accessible_name("Replay under");
+        if replayed.is_some_and(|replayed| !replayed.recording.complete) {
+            let text = "cut off: a path this long is not kept whole";
+            ui.label(RichText::new(text).small().color(palette.warning));
+        }
         if let Some(replayed) = replayed {
             let film = replayed.ledger.film;
             let text = format!(
