@@ -138,8 +138,7 @@ fn the_parts_of_an_image_sum_to_it() {
                 })
                 .collect();
             for split in Split::ALL {
-                let plan =
-                    StrategyPlan { scene: &scene, kernel, settings: &settings, stride: 1, samples: (0, 8) };
+                let plan = StrategyPlan::whole(&scene, kernel, &settings, (0, 8));
                 let parts = Strategies::render(&plan, split, Wanted::ALWAYS).unwrap();
                 for (i, whole) in image.iter().enumerate() {
                     for (c, channel) in whole.iter().enumerate() {
@@ -165,7 +164,7 @@ fn parts_are_named_by_how_they_came_about() {
     let settings = Settings::new(&doc.estimator, 3);
     let names = |id: &str, split| -> Vec<String> {
         let kernel = majorant_core::estimator::find(id).unwrap().kernel;
-        let plan = StrategyPlan { scene: &scene, kernel, settings: &settings, stride: 1, samples: (0, 64) };
+        let plan = StrategyPlan::whole(&scene, kernel, &settings, (0, 64));
         let parts = Strategies::render(&plan, split, Wanted::ALWAYS).unwrap();
         parts.layers.into_iter().map(|l| l.name).collect()
     };

@@ -40,8 +40,13 @@ fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
     assert!((0..4).all(|i| grey(i) <= grey(chosen)), "{chosen} of {samples:?}");
     click(&mut lab, Role::Button, "Next event");
     assert_eq!(lab.state().inspector().path.step, 1);
-    lab.key_press(Key::CloseBracket);
-    lab.run_steps(2);
+    // Keys go through the events, and do nothing else.
+    for (key, step) in [(Key::CloseBracket, 2), (Key::CloseBracket, 3), (Key::OpenBracket, 2)] {
+        lab.key_press(key);
+        lab.run_steps(2);
+        assert_eq!(lab.state().inspector().path.step, step);
+        assert!(lab.query_by_label("Scene").is_some() && lab.query_by_label("Method").is_some());
+    }
     lab.key_press(Key::OpenBracket);
     lab.run_steps(2);
     click(&mut lab, Role::Button, "Previous event");
@@ -117,6 +122,22 @@ fn noise_is_explained_and_the_advice_is_tried_beside() {
     lab.run_steps(3);
     lab.check_accessibility();
     assert!(lab.query_by_label_contains("absorption ends paths").is_some());
+    // The samples that weigh most are named, and can be replayed.
+    let heaviest = {
+        let evidence = lab.state().inspector().noise.newest().expect("evidence");
+        evidence.heaviest.named.first().expect("a sample").at
+    };
+    let name = format!("({}, {}) #{}", heaviest.x, heaviest.y, heaviest.sample);
+    click(&mut lab, Role::Link, &name);
+    lab.run_steps(2);
+    wait(&mut lab, "its path", |app| app.inspector().path.pixel.is_some());
+    let path = &lab.state().inspector().path;
+    assert_eq!(path.pixel, Some([heaviest.x as usize, heaviest.y as usize]));
+    assert_eq!(path.sample, Some(heaviest.sample));
+    lab.state_mut().request(Command::ShowTab("noise"));
+    lab.run_steps(3);
+    wait(&mut lab, "the evidence", |app| !app.inspector().noise.is_running());
+    lab.run_steps(3);
     click(&mut lab, Role::Button, "Try advice 1");
     lab.run_steps(3);
     let docs = doc(&lab).view_docs();

@@ -51,7 +51,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
     let settings = Settings::new(&doc.estimator, doc.render.seed);
     let samples = (0, u64::from(arguments.spp));
-    let plan = StrategyPlan { scene: &scene, kernel: entry.kernel, settings: &settings, stride: 1, samples };
+    let plan = StrategyPlan::whole(&scene, entry.kernel, &settings, samples);
     let Some(parts) = Strategies::render(&plan, arguments.by, Wanted::ALWAYS) else { return Ok(()) };
     let shares = parts.variance_shares(|_, _| true);
     let share = |k: usize| shares.as_ref().map(|s| s[k]);

@@ -71,6 +71,8 @@ pub enum Command {
     TakeFaultOut,
     /// Shows the samples of a pixel.
     Pick([usize; 2]),
+    /// Replays one sample of a pixel.
+    Replay([usize; 2], u64),
     /// Shows numbers of this kind.
     ShowTab(&'static str),
     /// Opens a comparison that is set up already, by its name.

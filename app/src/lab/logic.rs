@@ -185,6 +185,11 @@ impl LabApp {
                 }
             }
             Command::Pick(pixel) => self.wall.picked = Some(pixel),
+            Command::Replay(pixel, sample) => {
+                self.wall.picked = Some(pixel);
+                self.inspector.path.choose(pixel, sample);
+                self.apply(Command::ShowTab("path"));
+            }
             Command::ShowMajorants(slice) => self.settings.majorant_slice = slice,
             Command::ToggleMajorants => {
                 let shown = self.settings.majorant_slice.is_some();

@@ -119,12 +119,12 @@ pub const KEYS: &[Shortcut] = &[
         command: || Command::Zoom(1.0),
     },
     Shortcut {
-        keys: key(Modifiers::NONE, Key::OpenBracket),
+        keys: key(Modifiers::NONE, Key::F2),
         text: "Left column",
         command: || Command::ToggleSceneColumn,
     },
     Shortcut {
-        keys: key(Modifiers::NONE, Key::CloseBracket),
+        keys: key(Modifiers::NONE, Key::F3),
         text: "Right column",
         command: || Command::ToggleMethodColumn,
     },
@@ -148,6 +148,8 @@ pub const GESTURES: &[(&str, &str)] = &[
     ("Right click a number", "As opened, or its default"),
     ("Double click a plot", "Add a control point"),
     ("Right click a point, Delete", "Remove it"),
+    ("Page up, Page down", "Turn the pages of a lesson"),
+    ("[ and ]", "Go through the events of a path"),
     ("Tab, over the pictures", "Flip to the next view"),
     ("Ctrl + plus, minus, 0", "Size of the interface"),
 ];
@@ -165,7 +167,7 @@ pub fn keys_of(ctx: &Context, command: &Command) -> String {
 pub fn name(ctx: &Context, keys: &KeyboardShortcut) -> String {
     // egui spells out the names of keys that are signs.
     let text = ctx.format_shortcut(keys);
-    text.replace("Period", ".").replace("OpenBracket", "[").replace("CloseBracket", "]")
+    text.replace("Period", ".")
 }
 
 /// The commands of the keys that were pressed since the last frame.

@@ -59,6 +59,13 @@ pub struct PathState {
     pub pixel: Option<[usize; 2]>,
 }
 
+impl PathState {
+    /// Turns to one sample of a pixel, at its first event.
+    pub fn choose(&mut self, pixel: [usize; 2], sample: u64) {
+        (self.pixel, self.sample, self.step, self.scroll) = (Some(pixel), Some(sample), 0, true);
+    }
+}
+
 /// An image that is taken apart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartsQuestion {

@@ -3,7 +3,7 @@
 //! The evidence is measured, the rules are experience: each advice names what it rests on, and is a document to be
 //! rendered beside the one at hand, which proves or refutes it.
 
-use super::{Split, Strategies, StrategyPlan};
+use super::{Heaviest, Split, Strategies, StrategyPlan};
 use crate::math::SamplerKind;
 use crate::phase::Phase;
 use crate::scene::{Absorption, DirectionSampling, LightSampling, LightSelection, Mode, SceneDoc};
@@ -26,29 +26,23 @@ pub struct Evidence {
     pub shares: Vec<Shares>,
     /// Share of the variance that is perpendicular to grey, if it is known.
     pub chroma: Option<f64>,
+    /// How unevenly it is spread over the samples.
+    pub heaviest: Heaviest,
 }
 
 impl Evidence {
-    /// Takes samples of a scene apart in every way, and sums over the pixels that are `inside`; `None` if there is no
-    /// variance, or it was called off.
+    /// Takes the samples of a plan apart in every way, and weighs them; `None` if there is no variance, or it was
+    /// called off.
     #[must_use]
-    pub fn measure(
-        plan: &StrategyPlan<'_>,
-        inside: impl Fn(usize, usize) -> bool,
-        chroma: Option<f64>,
-        wanted: Wanted<'_>,
-    ) -> Option<Self> {
-        let stride = plan.stride.max(1);
+    pub fn measure(plan: &StrategyPlan<'_>, chroma: Option<f64>, wanted: Wanted<'_>) -> Option<Self> {
         let mut shares = Vec::new();
-        for parts in Strategies::render_all(plan, &Split::ALL, wanted)? {
-            let of = parts.variance_shares(|x, y| inside(x * stride, y * stride))?;
-            let of_split = parts.split;
-            let names = parts.layers.iter().map(|layer| layer.name.clone());
-            let mut parts: Vec<_> = names.zip(of).collect();
+        for split in Strategies::render_all(plan, &Split::ALL, wanted)? {
+            let of = split.variance_shares(|_, _| true)?;
+            let mut parts: Vec<_> = split.layers.into_iter().map(|layer| layer.name).zip(of).collect();
             parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-            shares.push(Shares { split: of_split, parts });
+            shares.push(Shares { split: split.split, parts });
         }
-        Some(Self { shares, chroma })
+        Some(Self { shares, chroma, heaviest: Heaviest::measure(plan, wanted)? })
     }
 
     /// The share of a part, by its name; zero if there is none.
@@ -78,7 +72,7 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
     let mut propose = |because: String, change: &'static str, edit: &dyn Fn(&mut SceneDoc)| {
         let mut changed = doc.clone();
         edit(&mut changed);
-        if changed != *doc {
+        if changed != *doc && crate::estimator::validate(&changed).is_empty() {
             advice.push(Advice { because, change, doc: changed });
         }
     };
@@ -150,6 +144,20 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
             doc.estimator.sampler = SamplerKind::Sobol;
         });
     }
+    let tail = evidence.heaviest.held_by(1e-3);
+    let heaviest = evidence.heaviest.named.first();
+    if tail > 0.3
+        && !is("equiangular-mis")
+        && heaviest.is_some_and(|heavy| heavy.technique == "next-event" && heavy.order == "1")
+    {
+        let because = format!(
+            "{} is held by one sample in a thousand, the heaviest scattered once, beside a light",
+            percent(tail)
+        );
+        propose(because, "Draw distances towards the lights as well: equiangular MIS", &|doc| {
+            "equiangular-mis".clone_into(&mut doc.estimator.id);
+        });
+    }
     let late = evidence.share(Split::Order, "8 and more");
     if late > 0.3 && estimator.roulette_depth.is_some_and(|depth| depth < 8) {
         let because =
@@ -179,7 +187,7 @@ mod tests {
             Shares { split: Split::Technique, parts: named(technique) },
             Shares { split: Split::Order, parts: named(order) },
         ];
-        Evidence { shares, chroma: Some(chroma) }
+        Evidence { shares, chroma: Some(chroma), heaviest: Heaviest::even(1000) }
     }
 
     fn changes(doc: &SceneDoc, evidence: &Evidence) -> Vec<&'static str> {
@@ -199,6 +207,9 @@ mod tests {
         doc.estimator.id = "uni-nee-mis".into();
         let quiet = evidence(&[("unidirectional", 0.4), ("next-event", 0.4)], &[("8 and more", 0.2)], 0.1);
         assert_eq!(changes(&doc, &quiet), [""; 0]);
+        let beside_a_light = Heaviest::one(1000, "next-event", "1");
+        let near = Evidence { heaviest: beside_a_light, ..quiet.clone() };
+        assert!(changes(&doc, &near)[0].contains("equiangular"));
         doc.estimator.absorption = Absorption::Analogue;
         doc.medium.majorant.factor = 0.5;
         let said = changes(&doc, &quiet);

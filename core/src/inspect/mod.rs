@@ -5,6 +5,7 @@
 
 mod advice;
 mod books;
+mod heaviest;
 mod ledger;
 mod product;
 mod ray_bench;
@@ -13,6 +14,7 @@ mod step;
 mod strategies;
 
 pub use advice::{Advice, Evidence, Shares, advise};
+pub use heaviest::{Heaviest, Heavy};
 pub use ledger::{Credit, Ledger, Row};
 pub use product::Product;
 pub use ray_bench::{Along, BenchPlan, Look, RayBench};

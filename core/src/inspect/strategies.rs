@@ -166,18 +166,48 @@ pub struct StrategyPlan<'a> {
     pub kernel: Kernel,
     /// What the paths are traced with.
     pub settings: &'a Settings,
-    /// Every so many columns and rows there is a pixel; 1 for all.
-    pub stride: usize,
+    /// Left, top, right and bottom of the pixels that are traced; right and bottom are outside.
+    pub window: [u32; 4],
+    /// Every so many columns and rows of the window there is a pixel; 1 for all.
+    pub stride: u32,
     /// The first sample of every pixel, and the one after the last.
     pub samples: (u64, u64),
 }
 
-impl StrategyPlan<'_> {
-    /// Columns and rows that are traced.
-    fn size(&self) -> (usize, usize) {
-        let stride = self.stride.max(1);
-        ((self.scene.width as usize).div_ceil(stride), (self.scene.height as usize).div_ceil(stride))
+impl<'a> StrategyPlan<'a> {
+    /// All pixels of an image.
+    #[must_use]
+    pub fn whole(scene: &'a Scene, kernel: Kernel, settings: &'a Settings, samples: (u64, u64)) -> Self {
+        Self { scene, kernel, settings, window: [0, 0, scene.width, scene.height], stride: 1, samples }
     }
+
+    /// Columns and rows that are traced.
+    pub(super) fn size(&self) -> (usize, usize) {
+        let [left, top, right, bottom] = self.window;
+        let pixels = |from: u32, to: u32| to.saturating_sub(from).div_ceil(self.stride.max(1)) as usize;
+        (pixels(left, right), pixels(top, bottom))
+    }
+
+    /// The pixel of a column and a row.
+    pub(super) fn pixel(&self, column: usize, row: usize) -> [u32; 2] {
+        let [left, top, ..] = self.window;
+        let stride = self.stride.max(1);
+        [left + column as u32 * stride, top + row as u32 * stride]
+    }
+
+    /// Samples of every pixel.
+    pub(super) fn spp(&self) -> usize {
+        self.samples.1.saturating_sub(self.samples.0) as usize
+    }
+}
+
+/// The name of the layer that has most of one path's light.
+pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -> String {
+    let mut sorter = Sorter::new(split);
+    (plan.kernel)(plan.scene, plan.settings, at, Company::observed(Wanted::ALWAYS, &mut sorter));
+    let grey = sorter.layers.iter().map(|layer| layer.element_sum());
+    let largest = grey.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    largest.and_then(|(i, _)| split.layers().into_iter().nth(i)).unwrap_or_default()
 }
 
 /// One part of an image.
@@ -271,7 +301,7 @@ impl Strategies {
         let (width, _) = plan.size();
         let mut pixels = Vec::with_capacity(width);
         for column in 0..width {
-            let [x, y] = [column, row].map(|at| (at * plan.stride.max(1)) as u32);
+            let [x, y] = plan.pixel(column, row);
             let mut sums: Vec<Sums> = sorters.0.iter().map(|sorter| Sums::new(sorter.layers.len())).collect();
             for sample in plan.samples.0..plan.samples.1 {
                 sorters.0.iter_mut().for_each(Sorter::clear);
@@ -295,13 +325,11 @@ impl Strategies {
     #[must_use]
     pub fn variance_shares(&self, pixels: impl Fn(usize, usize) -> bool) -> Option<Vec<f64>> {
         let inside = |i: usize| pixels(i % self.width, i / self.width);
-        let sums: Vec<f64> = self
-            .layers
-            .iter()
-            .map(|l| {
-                l.covariance.iter().enumerate().filter(|(i, _)| inside(*i)).map(|(_, c)| f64::from(*c)).sum()
-            })
-            .collect();
+        let sum = |layer: &Layer| {
+            let of = layer.covariance.iter().enumerate().filter(|(i, _)| inside(*i));
+            of.map(|(_, c)| f64::from(*c)).sum()
+        };
+        let sums: Vec<f64> = self.layers.iter().map(sum).collect();
         let total: f64 = sums.iter().sum();
         (total > 0.0).then(|| sums.iter().map(|s| s / total).collect())
     }

@@ -24,8 +24,10 @@ impl fmt::Debug for Probe {
     }
 }
 
-/// About so many pixels are taken apart as evidence.
-const EVIDENCE_PIXELS: usize = 20_000;
+/// At most about so many pixels are taken apart as evidence, with about so many samples of all of them together: that
+/// tells shares to a per cent or two.
+const EVIDENCE_PIXELS: u64 = 20_000;
+const EVIDENCE_SAMPLES: u64 = 160_000;
 
 /// One sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,33 +80,33 @@ impl Probe {
     /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
     #[must_use]
     pub fn strategies(&self, split: Split, samples: Range<u64>, wanted: Wanted<'_>) -> Option<Strategies> {
-        Strategies::render(&self.plan(1, samples), split, wanted)
+        Strategies::render(&self.plan(samples), split, wanted)
     }
 
-    /// Why the pixels that are `inside` are noisy, by samples that are taken apart; `None` if there is no noise, or it
-    /// was called off.
+    /// Why a box of pixels is noisy, or the whole image, by samples that are taken apart; `None` if there is no noise, or
+    /// it was called off.
     #[must_use]
     pub fn evidence(
         &self,
-        samples: Range<u64>,
-        inside: impl Fn(usize, usize) -> bool,
+        region: Option<[u32; 4]>,
         chroma: Option<f64>,
         wanted: Wanted<'_>,
     ) -> Option<Evidence> {
-        // Whole images are not needed: so many pixels tell the shares to a per cent or two.
-        let pixels = self.scene.width as usize * self.scene.height as usize;
-        let stride = pixels.div_ceil(EVIDENCE_PIXELS).isqrt().max(1);
-        Evidence::measure(&self.plan(stride, samples), inside, chroma, wanted)
+        let mut plan = self.plan(0..0);
+        let [left, top, right, bottom] = region.unwrap_or(plan.window);
+        plan.window = [left, top, right.min(self.scene.width), bottom.min(self.scene.height)];
+        let pixels = |stride: u32| {
+            let [left, top, right, bottom] = plan.window;
+            let steps = |from: u32, to: u32| u64::from(to.saturating_sub(from).div_ceil(stride));
+            steps(left, right) * steps(top, bottom)
+        };
+        plan.stride = pixels(1).div_ceil(EVIDENCE_PIXELS).isqrt().max(1) as u32;
+        plan.samples = (0, (EVIDENCE_SAMPLES / pixels(plan.stride).max(1)).clamp(8, 512));
+        Evidence::measure(&plan, chroma, wanted)
     }
 
-    fn plan(&self, stride: usize, samples: Range<u64>) -> StrategyPlan<'_> {
-        StrategyPlan {
-            scene: &self.scene,
-            kernel: self.kernel,
-            settings: &self.settings,
-            stride,
-            samples: (samples.start, samples.end),
-        }
+    fn plan(&self, samples: Range<u64>) -> StrategyPlan<'_> {
+        StrategyPlan::whole(&self.scene, self.kernel, &self.settings, (samples.start, samples.end))
     }
 
     /// The same scene and random numbers under another estimator.

@@ -1,6 +1,6 @@
 //! Error against samples, seconds or look-ups.
 
-use super::plots::plot;
+use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
 use crate::wall::analyst::settled_law;
@@ -64,7 +64,7 @@ impl Tab for Curves {
         });
         ui.data_mut(|d| d.insert_temp(id, axis));
         let palette = Palette::get(ui);
-        plot("curves", ui, (axis.name(), measure.name), (true, true)).show(ui, |plot| {
+        plot("curves", ui, (axis.name(), measure.name), (true, true)).legend(legend()).show(ui, |plot| {
             for (view, points) in &curves {
                 let colour = view_colour(*view);
                 let law = settled_law(points, axis);

@@ -13,7 +13,7 @@ mod scanline;
 use super::inspector::Inspector;
 use super::state::Wall;
 use crate::lab::Command;
-use crate::theme::Palette;
+use crate::theme::{Palette, UNIT};
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 use majorant_core::scene::SceneDoc;
 
@@ -39,6 +39,10 @@ pub trait Tab: Sync {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
     /// The same as text, for a spreadsheet; none if there is nothing yet. Asked for on a click only.
     fn csv(&self, cx: &mut Cx<'_>) -> Option<String>;
+    /// The share of the height that it would have, if nobody has chosen another.
+    fn share(&self) -> f32 {
+        0.37
+    }
     /// Whether it says something about a single view; the others compare.
     fn for_one_view(&self) -> bool {
         false
@@ -56,6 +60,12 @@ pub const TABS: &[&dyn Tab] = &[
     &parts::Parts,
     &noise::Noise,
 ];
+
+/// The share of the height that the tab with this id would have.
+#[must_use]
+pub fn share(chosen: &str) -> f32 {
+    TABS.iter().find(|tab| tab.id() == chosen).map_or(0.37, |tab| tab.share())
+}
 
 /// Draws the dock; `chosen` is the id of its tab.
 pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
@@ -85,6 +95,7 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
                 let pair = cx.wall.analysis().pair.filter(|(pair, _)| *pair == cx.doc.compare.pair);
                 if let Some((_, found)) = pair.filter(|_| cx.doc.view_count() > 1) {
                     let (text, colour) = pair_verdict(cx, &found, palette);
+                    ui.add_space(UNIT);
                     ui.add(
                         Label::new(RichText::new(text).small().color(colour)).truncate().selectable(false),
                     );

@@ -1,12 +1,14 @@
-//! Why the selected view is noisy: who makes the variance, and changes that a click renders beside it.
+//! Why the selected view is noisy: who makes the variance, which samples weigh most, and changes that a click renders
+//! beside it.
 
 use super::{Cx, Tab, empty};
 use crate::lab::Command;
 use crate::theme::{Palette, UNIT, view_colour};
 use crate::wall::inspector::NoiseQuestion;
 use egui::{Align, Button, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};
+use majorant_core::estimator::PathIndex;
 use majorant_core::film::Snapshot;
-use majorant_core::inspect::{Evidence, Shares, advise};
+use majorant_core::inspect::{Evidence, Heaviest, Shares, advise};
 use majorant_core::scene::SceneDoc;
 use std::fmt::Write;
 use std::sync::Arc;
@@ -14,10 +16,10 @@ use std::sync::Arc;
 /// See the [module](self).
 pub struct Noise;
 
-/// Samples per pixel that are taken apart.
-const SPP: u64 = 8;
 /// Parts of a split that are listed.
 const LISTED: usize = 6;
+/// Of how many samples the heaviest are asked for their share.
+const FRACTIONS: [(&str, f64); 3] = [("1 in 1000", 1e-3), ("1 in 100", 1e-2), ("1 in 10", 1e-1)];
 
 impl Tab for Noise {
     fn id(&self) -> &'static str {
@@ -26,6 +28,10 @@ impl Tab for Noise {
 
     fn title(&self) -> &'static str {
         "Noise"
+    }
+
+    fn share(&self) -> f32 {
+        0.52
     }
 
     fn for_one_view(&self) -> bool {
@@ -41,6 +47,13 @@ impl Tab for Noise {
                 let _ = writeln!(text, "{},{name},{share}", shares.split.name());
             }
         }
+        for (name, fraction) in FRACTIONS {
+            let _ = writeln!(text, "heaviest samples,{name},{}", evidence.heaviest.held_by(fraction));
+        }
+        for heavy in &evidence.heaviest.named {
+            let PathIndex { x, y, sample } = heavy.at;
+            let _ = writeln!(text, "sample,{x} {y} #{sample},{}", heavy.share);
+        }
         Some(text)
     }
 
@@ -55,7 +68,8 @@ impl Tab for Noise {
         };
         let Some(doc) = cx.doc.view_doc(cx.wall.selected()) else { return };
         let height = ui.available_height();
-        ui.columns(2, |columns| {
+        let narrow = ui.available_width() < 720.0;
+        ui.columns(if narrow { 2 } else { 3 }, |columns| {
             for column in columns.iter_mut() {
                 column.set_height(height);
             }
@@ -63,8 +77,17 @@ impl Tab for Noise {
                 for shares in &evidence.shares {
                     shares_ui(ui, shares);
                 }
+                if narrow {
+                    heaviest_ui(ui, cx, &evidence.heaviest);
+                }
             });
-            ScrollArea::vertical().id_salt("advice").auto_shrink(false).show(&mut columns[1], |ui| {
+            if !narrow {
+                ScrollArea::vertical().id_salt("heaviest").auto_shrink(false).show(&mut columns[1], |ui| {
+                    heaviest_ui(ui, cx, &evidence.heaviest);
+                });
+            }
+            let last = columns.len() - 1;
+            ScrollArea::vertical().id_salt("advice").auto_shrink(false).show(&mut columns[last], |ui| {
                 advice_ui(ui, cx, &doc, &evidence);
             });
         });
@@ -83,9 +106,8 @@ fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence
             ctx.request_repaint();
         }
     };
-    let answer = cx.inspector.noise.ask(&question, wake, move |wanted| {
-        probe.evidence(0..SPP, |x, y| inside(region, x, y), chroma, wanted)
-    });
+    let answer =
+        cx.inspector.noise.ask(&question, wake, move |wanted| probe.evidence(region, chroma, wanted));
     answer.filter(|(_, current)| *current).map(|(evidence, _)| evidence)
 }
 
@@ -108,30 +130,60 @@ fn chroma_share(snapshot: &Snapshot, region: Option<[u32; 4]>) -> Option<f64> {
 }
 
 fn shares_ui(ui: &mut Ui, shares: &Shares) {
-    let palette = Palette::get(ui);
-    ui.label(RichText::new(format!("by {}", shares.split.name())).small().color(palette.strong));
+    ui.label(RichText::new(format!("by {}", shares.split.name())).small().color(Palette::get(ui).strong));
     for (name, share) in shares.parts.iter().take(LISTED) {
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = UNIT;
-            let label = Label::new(RichText::new(name).small().color(palette.text)).truncate();
-            ui.allocate_ui_with_layout(vec2(112.0, 14.0), Layout::left_to_right(Align::Center), |ui| {
-                ui.set_min_width(112.0);
-                ui.add(label);
-            });
-            let room = (ui.available_width() - 52.0).max(20.0);
-            let (rect, _) = ui.allocate_exact_size(vec2(room, 9.0), Sense::hover());
-            ui.painter().rect_filled(rect, 2.0, palette.well);
-            let mut bar = rect;
-            bar.set_width(rect.width() * (share.abs().min(1.0) as f32));
-            // Below zero it takes noise away.
-            let colour = if *share < 0.0 { palette.weak } else { view_colour(0) };
-            ui.painter().rect_filled(bar, 2.0, colour);
-            ui.label(
-                RichText::new(format!("{:.0} %", 100.0 * share)).small().monospace().color(palette.text),
-            );
-        });
+        share_ui(ui, name, *share);
     }
     ui.add_space(UNIT);
+}
+
+fn share_ui(ui: &mut Ui, name: &str, share: f64) {
+    let palette = Palette::get(ui);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = UNIT;
+        let label = Label::new(RichText::new(name).small().color(palette.text)).truncate();
+        ui.allocate_ui_with_layout(vec2(88.0, 14.0), Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(88.0);
+            ui.add(label);
+        });
+        let room = (ui.available_width() - 46.0).max(20.0);
+        let (rect, _) = ui.allocate_exact_size(vec2(room, 9.0), Sense::hover());
+        ui.painter().rect_filled(rect, 2.0, palette.well);
+        let mut bar = rect;
+        bar.set_width(rect.width() * (share.abs().min(1.0) as f32));
+        // Below zero it takes noise away.
+        let colour = if share < 0.0 { palette.weak } else { view_colour(0) };
+        ui.painter().rect_filled(bar, 2.0, colour);
+        ui.label(RichText::new(format!("{:.0} %", 100.0 * share)).small().monospace().color(palette.text));
+    });
+}
+
+/// What the heaviest samples hold together, and each of them, to be replayed.
+fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
+    let palette = Palette::get(ui);
+    ui.label(RichText::new("held by the heaviest samples").small().color(palette.strong));
+    for (name, fraction) in FRACTIONS {
+        share_ui(ui, name, heaviest.held_by(fraction));
+    }
+    ui.add_space(UNIT);
+    ui.label(RichText::new("the heaviest, to be replayed").small().color(palette.strong));
+    for heavy in &heaviest.named {
+        let PathIndex { x, y, sample } = heavy.at;
+        let name = format!("({x}, {y}) #{sample}");
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = UNIT;
+            let link = ui.link(RichText::new(&name).small().monospace());
+            let tip = "Its events, one by one: a pixel and the number of its sample";
+            if link.on_hover_text(tip).clicked() {
+                cx.commands.push(Command::Replay([x as usize, y as usize], sample));
+            }
+            let share = format!("{:.1} %", 100.0 * heavy.share);
+            ui.label(RichText::new(share).small().monospace().color(palette.text));
+            let story = format!("{}, order {}", heavy.technique, heavy.order);
+            let label = Label::new(RichText::new(story).small().color(palette.weak)).truncate();
+            ui.add(label).on_hover_text(format!("{:.0} times the mean of its pixel", heavy.times_mean));
+        });
+    }
 }
 
 fn advice_ui(ui: &mut Ui, cx: &mut Cx<'_>, doc: &SceneDoc, evidence: &Evidence) {

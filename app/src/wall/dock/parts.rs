@@ -29,6 +29,10 @@ impl Tab for Parts {
         "Parts"
     }
 
+    fn share(&self) -> f32 {
+        0.52
+    }
+
     fn for_one_view(&self) -> bool {
         true
     }

@@ -2,7 +2,7 @@
 //!
 //! Samples are traced again, not stored: random numbers are a function of (seed, pixel, sample).
 
-use super::plots::plot;
+use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
 use egui::{RichText, Ui};
@@ -96,7 +96,7 @@ const PER_DECADE: f64 = 5.0;
 
 /// Shares of samples by their size, both by decades: a heavy tail shows as a slow slope to the right.
 fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
-    plot("histogram", ui, ("sample (grey)", "share"), (true, true)).show(ui, |plot| {
+    plot("histogram", ui, ("sample (grey)", "share"), (true, true)).legend(legend()).show(ui, |plot| {
         for view in views {
             let total = view.samples.len().max(1) as f64;
             let mut bins = std::collections::BTreeMap::<i64, u32>::new();
@@ -123,7 +123,7 @@ fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
 
 /// Running means with their standard errors.
 fn history_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
-    plot("history", ui, ("samples", "mean ± SE"), (true, false)).show(ui, |plot| {
+    plot("history", ui, ("samples", "mean ± SE"), (true, false)).legend(legend()).show(ui, |plot| {
         for view in views {
             let (mut n, mut mean, mut m2, mut next) = (0.0f64, 0.0f64, 0.0f64, 1.0f64);
             let (mut xs, mut ys, mut errors) = (Vec::new(), Vec::new(), Vec::new());

@@ -1,7 +1,8 @@
 //! What plots of this room share.
 
+use crate::theme::Palette;
 use crate::wall::caption::digits;
-use egui::Ui;
+use egui::{Color32, RichText, Sense, Ui, vec2};
 use egui_plot::{GridMark, Legend, Plot, log_grid_spacer};
 use std::ops::RangeInclusive;
 
@@ -18,7 +19,6 @@ pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)
         }
     };
     let mut plot = Plot::new(id.to_owned())
-        .legend(Legend::default().text_style(egui::TextStyle::Small).background_alpha(0.6))
         .height(ui.available_height().max(80.0))
         .x_axis_label(names.0.to_owned())
         .y_axis_label(names.1.to_owned())
@@ -32,6 +32,24 @@ pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)
         plot = plot.y_grid_spacer(log_grid_spacer(10));
     }
     plot
+}
+
+/// A legend over the plot.
+pub(super) fn legend() -> Legend {
+    Legend::default().text_style(egui::TextStyle::Small).background_alpha(0.6)
+}
+
+/// A legend above a small plot, in a line: what is drawn, in which colour.
+pub(super) fn key_ui(ui: &mut Ui, names: &[(&str, Color32)]) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        for (name, colour) in names {
+            let (rect, _) = ui.allocate_exact_size(vec2(9.0, 9.0), Sense::hover());
+            ui.painter().circle_filled(rect.center(), 3.5, *colour);
+            ui.label(RichText::new(*name).small().color(Palette::get(ui).text));
+            ui.add_space(4.0);
+        }
+    });
 }
 
 /// `0.01`, `100`, or `1e-5`.

@@ -1,6 +1,6 @@
 //! The transmittance bench: the ray of a pixel, or of a textbook shape, under any estimator of transmittance.
 
-use super::plots::plot;
+use super::plots::{key_ui, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
 use crate::wall::caption::digits;
@@ -28,6 +28,10 @@ impl Tab for Ray {
 
     fn title(&self) -> &'static str {
         "Ray"
+    }
+
+    fn share(&self) -> f32 {
+        0.52
     }
 
     fn for_one_view(&self) -> bool {
@@ -58,6 +62,8 @@ impl Tab for Ray {
         };
         numbers_ui(ui, &bench);
         let height = ui.available_height();
+        // The number at the end of the last axis reaches beyond it.
+        ui.set_max_width(ui.available_width() - 14.0);
         ui.columns(3, |columns| {
             for column in columns.iter_mut() {
                 column.set_height(height);
@@ -104,6 +110,9 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         if state.through == Through::Pixel {
             component_ui(ui, state, mode);
         }
+        if state.through != Through::Pixel {
+            shape_ui(ui, state);
+        }
         let again = Button::new(RichText::new("Another").small());
         if ui.add(again).on_hover_text("Shows another one of the estimates step by step").clicked() {
             state.example += 1;
@@ -112,9 +121,6 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             ui.spinner();
         }
     });
-    if state.through != Through::Pixel {
-        ui.horizontal(|ui| shape_ui(ui, state));
-    }
 }
 
 /// The numbers of a shape, each with its name.
@@ -236,6 +242,8 @@ fn stairs(bench: &RayBench) -> Vec<[f32; 2]> {
 
 fn extinction_ui(ui: &mut Ui, bench: &RayBench) {
     let palette = Palette::get(ui);
+    let names = [("extinction", palette.accent), ("majorant", palette.warning), ("look-ups", palette.strong)];
+    key_ui(ui, &names);
     plot("extinction", ui, ("t", "μ"), (false, false)).show(ui, |plot| {
         // One line per step: a single one with many right angles is drawn too thick.
         for ends in stairs(bench).windows(2) {
@@ -250,6 +258,7 @@ fn extinction_ui(ui: &mut Ui, bench: &RayBench) {
 
 fn transmittance_ui(ui: &mut Ui, bench: &RayBench) {
     let palette = Palette::get(ui);
+    key_ui(ui, &[("transmittance", palette.good), ("this estimate", palette.strong)]);
     plot("transmittance", ui, ("t", "T"), (false, false)).include_y(0.0).include_y(1.0).show(ui, |plot| {
         plot.line(curve("truth", &bench.transmittance).color(palette.good));
         plot.line(curve("this estimate", &bench.running).color(palette.strong));
@@ -272,11 +281,12 @@ fn histogram_ui(ui: &mut Ui, bench: &RayBench) {
         counts[bin] += 1;
     }
     let total = bench.estimates.len().max(1) as f64;
+    let colour = view_colour(0).gamma_multiply(0.7);
+    key_ui(ui, &[("estimates", colour), ("truth", palette.good), ("their mean", palette.strong)]);
     plot("histogram", ui, ("estimate", "share"), (false, false)).show(ui, |plot| {
         let bars = counts.iter().enumerate().filter(|(_, n)| **n > 0).map(|(i, n)| {
             Bar::new(f64::from(lo) + (i as f64 + 0.5) * width, f64::from(*n) / total).width(0.92 * width)
         });
-        let colour = view_colour(0).gamma_multiply(0.7);
         plot.bar_chart(BarChart::new("estimates", bars.collect()).color(colour));
         plot.vline(VLine::new("truth", bench.truth()).color(palette.good).width(1.6));
         let [mean, error] = bench.mean;

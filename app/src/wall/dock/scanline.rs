@@ -1,6 +1,6 @@
 //! One row of pixels through all views, with the reference.
 
-use super::plots::plot;
+use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
 use crate::view::developer::Sight;
@@ -83,7 +83,7 @@ impl Tab for Scanline {
         let text = format!("Row {}; click a pixel to choose another. Grey, ± one standard error.", row(cx));
         ui.label(RichText::new(text).small().color(palette.weak));
         let picked = cx.wall.picked;
-        plot("scanline", ui, ("column", "radiance"), (false, false)).show(ui, |plot| {
+        plot("scanline", ui, ("column", "radiance"), (false, false)).legend(legend()).show(ui, |plot| {
             for line in &rows {
                 let colour = line.view.map_or(palette.strong, view_colour);
                 let xs: Vec<f64> = (0..line.grey.len()).map(|x| x as f64 + 0.5).collect();

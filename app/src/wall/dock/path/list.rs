@@ -22,7 +22,7 @@ pub(super) fn sorted(wall: &Wall, pixel: [usize; 2]) -> Vec<(u64, f32)> {
     samples
 }
 
-pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, samples: &[(u64, f32)], chosen: u64) {
+pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, pixel: [usize; 2], samples: &[(u64, f32)], chosen: u64) {
     let palette = Palette::get(ui);
     ui.label(RichText::new("brightest first").small().color(palette.weak));
     let height = ui.text_style_height(&egui::TextStyle::Small) + 4.0;
@@ -41,8 +41,7 @@ pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, samples: &[(u64, f32)], chos
                 egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("Sample {sample}"))
             });
             if response.clicked() {
-                let state = &mut cx.inspector.path;
-                (state.sample, state.step, state.scroll) = (Some(*sample), 0, true);
+                cx.inspector.path.choose(pixel, *sample);
             }
         }
     });

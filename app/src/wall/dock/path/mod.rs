@@ -31,6 +31,10 @@ impl Tab for Path {
         "Path"
     }
 
+    fn share(&self) -> f32 {
+        0.52
+    }
+
     fn for_one_view(&self) -> bool {
         true
     }
@@ -77,7 +81,7 @@ impl Tab for Path {
         let (left, rest) = room.split_left_right_at_x(room.left() + list_width);
         let (middle, right) = rest.split_left_right_at_x(rest.right() - ledger_width);
         if !narrow {
-            list::list_ui(&mut part(ui, left.with_max_x(left.right() - 6.0)), cx, &samples, chosen);
+            list::list_ui(&mut part(ui, left.with_max_x(left.right() - 6.0)), cx, pixel, &samples, chosen);
         }
         let Some(replayed) = replayed else {
             return empty(&mut part(ui, rest), "The path is being traced again.");
