@@ -53,6 +53,40 @@ fn every_lesson_is_played_through_by_keyboard() {
 }
 
 #[test]
+fn equations_are_set_and_told_to_who_cannot_see_them() {
+    let (mut lab, _directory) = lab();
+    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[1])));
+    lab.run_steps(3);
+    let shown = |tex: &str| lab.query_all_by_role_and_label(Role::Image, tex).count();
+    assert!(shown(r"\bar\mu") >= 2, "within sentences");
+    assert_eq!(
+        lab.query_all_by_role(Role::Image)
+            .filter(|node| node.accesskit_node().label().is_some_and(|tex| tex.starts_with(r"t = -\frac")))
+            .count(),
+        1,
+        "on a line of its own"
+    );
+}
+
+#[test]
+fn a_narrow_window_has_room_for_the_lesson_and_the_pictures() {
+    let (mut lab, _directory) = lab();
+    lab.set_size(egui::vec2(1280.0, 720.0));
+    lab.run_steps(2);
+    let method = |lab: &Lab| lab.query_by_label("how it is estimated").is_some();
+    assert!(method(&lab));
+    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[0])));
+    lab.run_steps(3);
+    assert!(!method(&lab));
+    lab.key_press(Key::F3);
+    lab.run_steps(2);
+    assert!(method(&lab));
+    lab.state_mut().request(Command::CloseLesson);
+    lab.run_steps(2);
+    assert!(method(&lab));
+}
+
+#[test]
 fn numbers_in_a_lesson_are_those_of_the_lab() {
     let (mut lab, _directory) = lab();
     lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[0])));

@@ -77,11 +77,9 @@ impl LabApp {
     }
 
     fn show_step(&mut self) {
-        let Some((scene, stop)) = self
-            .lesson
-            .as_ref()
-            .and_then(|player| Some((player.lesson.scene_at(player.step)?, player.now()?.stop.clone())))
-        else {
+        let Some((scene, stop)) = self.lesson.as_ref().and_then(|player| {
+            Some((player.lesson.scene_at(player.step)?, player.lesson.stop_at(player.step)?))
+        }) else {
             return;
         };
         if *self.document.doc() != scene {

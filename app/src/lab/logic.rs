@@ -24,6 +24,14 @@ impl LabApp {
         if self.doc().view_count() > 1 { &mut self.settings.dock } else { &mut self.settings.dock_alone }
     }
 
+    /// Whether the method column is shown. In a narrow window a lesson opens without it.
+    pub(super) fn method_shown(&self) -> bool {
+        match &self.lesson {
+            Some(player) if self.narrow => player.with_method,
+            _ => self.settings.method_column,
+        }
+    }
+
     /// Takes note of everything that happened since the last frame.
     pub(super) fn update(&mut self, ctx: &Context) {
         let prints = self.developer.take();
@@ -211,7 +219,10 @@ impl LabApp {
                 (self.settings.scene_column, self.settings.method_column) = (!large, !large);
             }
             Command::ToggleSceneColumn => self.settings.scene_column ^= true,
-            Command::ToggleMethodColumn => self.settings.method_column ^= true,
+            Command::ToggleMethodColumn => match &mut self.lesson {
+                Some(player) if self.narrow => player.with_method ^= true,
+                _ => self.settings.method_column ^= true,
+            },
             Command::ToggleShortcuts => self.shortcuts_open ^= true,
             Command::OpenSelfCheck => self.self_check.open = true,
             Command::CloseSelfCheck => {

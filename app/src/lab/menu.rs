@@ -7,7 +7,7 @@ use crate::model::Source;
 use crate::theme::Palette;
 use crate::wall::WallEdit;
 use crate::wall::presets::PRESETS;
-use egui::{Align, Button, Label, Layout, MenuBar, RichText, ThemePreference, Ui};
+use egui::{Align, Button, Checkbox, Label, Layout, MenuBar, RichText, ThemePreference, Ui};
 use majorant_core::io::embedded;
 use majorant_core::scene::{Arrangement, ToneCurve};
 use std::sync::Arc;
@@ -103,12 +103,13 @@ impl LabApp {
             commands.push(Command::ToggleMajorants);
         }
         ui.separator();
+        let (reading, method) = (self.lesson.is_some(), self.method_shown());
         let columns = [
-            ("Scene column", self.settings.scene_column, Command::ToggleSceneColumn),
-            ("Method column", self.settings.method_column, Command::ToggleMethodColumn),
+            ("Scene column", !reading, self.settings.scene_column && !reading, Command::ToggleSceneColumn),
+            ("Method column", true, method, Command::ToggleMethodColumn),
         ];
-        for (name, mut shown, command) in columns {
-            if ui.checkbox(&mut shown, name).clicked() {
+        for (name, possible, mut shown, command) in columns {
+            if ui.add_enabled(possible, Checkbox::new(&mut shown, name)).clicked() {
                 commands.push(command);
             }
         }

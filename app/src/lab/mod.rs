@@ -82,6 +82,8 @@ pub struct LabApp {
     factor_curve: FactorCurve,
     inspector: Inspector,
     lesson: Option<Player>,
+    /// Whether the window is too narrow for a lesson, pictures and the method side by side.
+    narrow: bool,
     own_lessons: Vec<Arc<Lesson>>,
     /// Since when the scene is being built, if it is.
     building_since: Option<Instant>,
@@ -156,6 +158,7 @@ impl LabApp {
             factor_curve: FactorCurve::default(),
             inspector: Inspector::default(),
             lesson: None,
+            narrow: false,
             own_lessons: Vec::new(),
             building_since: None,
             tasks: Tasks::new(move || repaint.request_repaint()),

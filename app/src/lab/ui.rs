@@ -16,6 +16,9 @@ use egui::{
 };
 use majorant_core::scene::{CameraDoc, SceneDoc};
 
+/// Below so many points a lesson, the pictures and the method do not fit side by side.
+const WIDE: f32 = 1500.0;
+
 impl LabApp {
     /// Draws a frame; returns what it was asked for.
     pub(super) fn window_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
@@ -50,7 +53,8 @@ impl LabApp {
                 Panel::left("scene-column").frame(column).default_size(316.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Scene, &mut draft, &mut commands));
         }
-        if self.settings.method_column {
+        self.narrow = ui.max_rect().width() < WIDE;
+        if self.method_shown() {
             let panel =
                 Panel::right("method-column").frame(column).default_size(292.0).size_range(292.0..=480.0);
             panel.show(ui, |ui| self.column_ui(ui, Column::Method, &mut draft, &mut commands));
@@ -124,8 +128,9 @@ impl LabApp {
         if dock {
             let frame = Frame::NONE.fill(palette.panel);
             let room = ui.available_height();
-            let panel = Panel::bottom("dock").frame(frame).resizable(true);
-            panel.default_size(0.37 * room).size_range(110.0..=(0.7 * room).max(120.0)).show(ui, |ui| {
+            let share = dock::share(&self.settings.tab);
+            let panel = Panel::bottom(format!("dock {share}")).frame(frame).resizable(true);
+            panel.default_size(share * room).size_range(110.0..=(0.7 * room).max(120.0)).show(ui, |ui| {
                 // The panel keeps its height whatever its tab holds.
                 ui.set_min_height(ui.available_height());
                 let mut cx = dock::Cx { wall: &self.wall, doc, inspector: &mut self.inspector, commands };

@@ -15,9 +15,10 @@
 //!   …
 //! ```
 //!
-//! Between `+++ kind` and the next `+++` stands TOML, then the step's text.
+//! Between `+++ kind` and the next `+++` stands TOML, then the step's text, with equations as TeX between dollars.
 
 use super::live;
+use super::prose::damaged_equation;
 use crate::wall::dock::TABS;
 use majorant_core::io::{embedded, scene_file};
 use majorant_core::scene::SceneDoc;
@@ -195,6 +196,9 @@ impl Lesson {
             if let Some(name) = live::names(&part.text).find(|name| !live::NAMES.contains(name)) {
                 return Err(error(part.line, format!("`{name}` is no number: {}", live::NAMES.join(", "))));
             }
+            if let Some(reason) = damaged_equation(&part.text) {
+                return Err(error(part.line, reason));
+            }
             steps.push(Step { stage, stop, text: part.text.trim().to_owned() });
         }
         if steps.is_empty() {
@@ -209,6 +213,13 @@ impl Lesson {
         Ok(lesson)
     }
 
+    /// What a step sets, with what those before it have set and it leaves.
+    #[must_use]
+    pub fn stop_at(&self, step: usize) -> Option<Stop> {
+        let steps = self.steps.get(..=step)?;
+        Some(steps.iter().fold(Stop::default(), |stop, step| stop.then(&step.stop)))
+    }
+
     /// The scene that a step shows: what all steps up to it have set.
     #[must_use]
     pub fn scene_at(&self, step: usize) -> Option<SceneDoc> {
@@ -221,6 +232,22 @@ impl Lesson {
 }
 
 impl Stop {
+    /// What two steps set one after the other, but for the scene.
+    fn then(self, next: &Self) -> Self {
+        let or = |before: Option<String>, after: &Option<String>| after.clone().or(before);
+        let ray = match (self.ray, &next.ray) {
+            (Some(before), Some(after)) => Some(RaySet {
+                through: or(before.through, &after.through),
+                extinction: after.extinction.or(before.extinction),
+                cells: after.cells.or(before.cells),
+                factor: after.factor.or(before.factor),
+                kind: or(before.kind, &after.kind),
+            }),
+            (before, after) => after.clone().or(before),
+        };
+        Self { tab: or(self.tab, &next.tab), pick: next.pick.or(self.pick), ray, ..next.clone() }
+    }
+
     /// Whether everything that it names exists, but for the scene.
     fn check(&self) -> Result<(), String> {
         let known = |what: &str, name: &Option<String>, all: Vec<&str>| match name {
@@ -274,6 +301,19 @@ mod tests {
     }
 
     #[test]
+    fn what_a_step_leaves_is_as_the_steps_before_it_have_set_it() {
+        let first = "right = 1\ntab = \"ray\"\nray = { cells = 4, kind = \"ratio\" }";
+        let text = TWO.replace("right = 1", first).replace("set =", "ray = { cells = 8 }\nset =");
+        let stop = Lesson::parse("two", &text).unwrap().stop_at(1).unwrap();
+        let ray = stop.ray.unwrap();
+        assert_eq!(
+            (stop.tab.as_deref(), ray.cells, ray.kind.as_deref()),
+            (Some("ray"), Some(8), Some("ratio"))
+        );
+        assert!(stop.choices.is_empty(), "an answer is asked for once");
+    }
+
+    #[test]
     fn what_is_wrong_is_said_with_its_line() {
         let said = |source: &str| Lesson::parse("x", source).unwrap_err().to_string();
         assert!(said("hello").contains("begins with +++"));
@@ -284,6 +324,7 @@ mod tests {
         assert!(said(&TWO.replace("albedo=0.5", "albedo=7")).contains("step 2"));
         assert!(said(&TWO.replace("This.", "{{luck}}")).contains("`luck` is no number"));
         assert!(said(&TWO.replace("right = 1", "right = 1\ntab = \"moon\"")).contains("`moon` is no tab"));
+        assert!(said(&TWO.replace("This.", "$\\nosuch{1}$")).contains("line 9: the equation"));
         assert!(said(&TWO.replace("choices", "options")).contains("options"));
     }
 }

@@ -10,8 +10,10 @@
 //! | `shelf.rs` | the embedded lessons, and those of a folder |
 //! | `player.rs` | which lesson is open, and the column that shows it |
 //! | `prose.rs` | Markdown as paragraphs, lists and equations |
+//! | `equation.rs` | TeX as pictures |
 //! | `live.rs` | numbers in the text, computed when they are read |
 
+mod equation;
 mod lesson;
 mod live;
 mod player;

@@ -17,6 +17,8 @@ pub struct Player {
     pub step: usize,
     /// The answers that were chosen, by step.
     pub answers: Vec<Option<usize>>,
+    /// Whether the method column is shown beside it, where the window is narrow.
+    pub with_method: bool,
 }
 
 impl Player {
@@ -24,7 +26,12 @@ impl Player {
     #[must_use]
     pub fn new(lesson: Arc<Lesson>, step: usize) -> Self {
         let steps = lesson.steps.len();
-        Self { answers: vec![None; steps], step: step.min(steps.saturating_sub(1)), lesson }
+        Self {
+            answers: vec![None; steps],
+            step: step.min(steps.saturating_sub(1)),
+            lesson,
+            with_method: false,
+        }
     }
 
     /// The step that is shown.

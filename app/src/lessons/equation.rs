@@ -1,0 +1,128 @@
+//! Equations: TeX, set by RaTeX in the fonts of KaTeX, drawn in the colour of the text around them.
+
+use egui::{ColorImage, Context, Id, TextureHandle, TextureOptions, Vec2};
+use ratex_layout::{LayoutOptions, layout, to_display_list};
+use ratex_render::{RenderOptions, render_to_png};
+use ratex_types::{Color, MathStyle};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+/// Room around the ink, in points, so that nothing of a slanted letter is cut off.
+pub const PADDING: f32 = 1.0;
+
+/// Pictures of equations that are kept though nothing shows them now.
+const KEPT: usize = 64;
+
+/// How an equation is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// On a line of its own: large operators, limits above and below.
+    Display,
+    /// Within a sentence.
+    Inline,
+}
+
+/// An equation as a picture, white on nothing: to be painted in any colour.
+pub struct Equation {
+    /// The picture.
+    pub texture: TextureHandle,
+    /// Its size in points.
+    pub size: Vec2,
+    /// From its top to the baseline, in points.
+    pub baseline: f32,
+}
+
+/// Whether a text is an equation.
+///
+/// # Errors
+/// Says what of the TeX is not understood.
+pub fn check(tex: &str) -> Result<(), String> {
+    ratex_parser::parse(tex).map(|_| ()).map_err(|error| error.message)
+}
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Key {
+    tex: String,
+    place: Place,
+    // Bits, so that they can be compared.
+    em: u32,
+    pixels_per_point: u32,
+}
+
+#[derive(Default)]
+struct Shelf {
+    equations: HashMap<Key, (Arc<Equation>, u64)>,
+}
+
+/// An equation at a size, `em` points: set once, then taken from the shelf.
+///
+/// # Errors
+/// Says what of the TeX is not understood.
+pub fn equation(ctx: &Context, tex: &str, place: Place, em: f32) -> Result<Arc<Equation>, String> {
+    let pixels_per_point = ctx.pixels_per_point();
+    let key =
+        Key { tex: tex.to_owned(), place, em: em.to_bits(), pixels_per_point: pixels_per_point.to_bits() };
+    let shelf: Arc<Mutex<Shelf>> = ctx.data_mut(|data| {
+        data.get_temp_mut_or_default::<Arc<Mutex<Shelf>>>(Id::unique("shelf of equations")).clone()
+    });
+    let mut shelf = shelf.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let now = ctx.cumulative_frame_nr();
+    if let Some((equation, used)) = shelf.equations.get_mut(&key) {
+        *used = now;
+        return Ok(Arc::clone(equation));
+    }
+    let equation = Arc::new(set(ctx, tex, place, em, pixels_per_point)?);
+    if shelf.equations.len() >= KEPT {
+        shelf.equations.retain(|_, (_, used)| *used + 1 >= now);
+    }
+    shelf.equations.insert(key, (Arc::clone(&equation), now));
+    Ok(equation)
+}
+
+fn set(ctx: &Context, tex: &str, place: Place, em: f32, pixels_per_point: f32) -> Result<Equation, String> {
+    let style = match place {
+        Place::Display => MathStyle::Display,
+        Place::Inline => MathStyle::Text,
+    };
+    let parsed = ratex_parser::parse(tex).map_err(|error| error.message)?;
+    let list = to_display_list(&layout(&parsed, &LayoutOptions { style, ..LayoutOptions::default() }));
+    let options = RenderOptions {
+        font_size: em,
+        padding: PADDING,
+        background_color: Color { r: 0.0, g: 0.0, b: 0.0, a: 0.0 },
+        font_dir: String::new(),
+        device_pixel_ratio: pixels_per_point,
+    };
+    let png = render_to_png(&list, &options)?;
+    let picture = image::load_from_memory(&png).map_err(|error| error.to_string())?.into_rgba8();
+    let size = [picture.width() as usize, picture.height() as usize];
+    let coverage: Vec<u8> = picture.pixels().map(|pixel| pixel.0[3]).collect();
+    let white = ColorImage::new(size, coverage.into_iter().map(egui::Color32::from_white_alpha).collect());
+    Ok(Equation {
+        texture: ctx.load_texture("equation", white, TextureOptions::LINEAR),
+        size: Vec2::new(size[0] as f32, size[1] as f32) / pixels_per_point,
+        baseline: list.height as f32 * em + PADDING,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_equation_has_ink_and_a_baseline_within() {
+        let ctx = Context::default();
+        let set = |tex: &str, place| equation(&ctx, tex, place, 16.0).unwrap();
+        let sum = r"\sum_{i=1}^{k} x_i";
+        let [shown, within] = [Place::Display, Place::Inline].map(|place| set(sum, place));
+        assert!(shown.baseline > 10.0 && shown.baseline < shown.size.y);
+        assert!(shown.size.y > 1.5 * within.size.y, "limits stand above and below only on a line of its own");
+        assert!(Arc::ptr_eq(&within, &set(sum, Place::Inline)), "set once");
+    }
+
+    #[test]
+    fn what_is_no_equation_is_said() {
+        assert!(check(r"\frac{1}{2}").is_ok());
+        assert!(check(r"\frac{1}{").is_err() && check(r"\nosuchcommand").is_err());
+    }
+}
