@@ -5,7 +5,7 @@ use super::{Lesson, Live, Stage, Step};
 use crate::lab::Command;
 use crate::theme::{Palette, UNIT};
 use crate::widgets::badge;
-use egui::{Button, Frame, Key, Label, Margin, ProgressBar, RadioButton, RichText, ScrollArea, Ui};
+use egui::{Button, Frame, Id, Key, Label, Margin, ProgressBar, RadioButton, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
 /// An open lesson.
@@ -90,11 +90,17 @@ pub fn player_ui(ui: &mut Ui, player: &Player, live: &Live<'_>, commands: &mut V
 fn choices_ui(ui: &mut Ui, player: &Player, step: &Step, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     let chosen = player.answers.get(player.step).copied().flatten();
+    let turned = newly_shown(ui, player);
     for (i, choice) in step.stop.choices.iter().enumerate() {
         let on = chosen == Some(i);
         let text = RichText::new(choice).color(if on { palette.strong } else { palette.text });
-        if ui.add(RadioButton::new(on, text)).clicked() {
+        let response = ui.add(RadioButton::new(on, text));
+        if response.clicked() {
             commands.push(Command::AnswerLesson(i));
+        }
+        // The space bar answers, and Tab goes to the next one.
+        if turned && i == 0 {
+            response.request_focus();
         }
     }
     if let Some(chosen) = chosen {
@@ -106,6 +112,15 @@ fn choices_ui(ui: &mut Ui, player: &Player, step: &Step, commands: &mut Vec<Comm
         };
         ui.add(Label::new(RichText::new(text).color(colour)).wrap());
     }
+}
+
+/// Whether another page was shown in the frame before this one.
+fn newly_shown(ui: &Ui, player: &Player) -> bool {
+    let page = (player.lesson.id.clone(), player.step);
+    ui.data_mut(|data| {
+        let shown = data.get_temp_mut_or_default::<Option<(String, usize)>>(Id::unique("page of a lesson"));
+        shown.replace(page.clone()) != Some(page)
+    })
 }
 
 fn footer_ui(ui: &mut Ui, player: &Player, commands: &mut Vec<Command>) {
@@ -138,7 +153,7 @@ fn footer_ui(ui: &mut Ui, player: &Player, commands: &mut Vec<Command>) {
 
 /// Page up and page down turn steps; Tab and space choose answers.
 fn keys(ui: &Ui, player: &Player, commands: &mut Vec<Command>) {
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().text_edit_focused() {
         return;
     }
     let pressed = |key: Key| ui.input(|input| input.key_pressed(key));

@@ -214,7 +214,7 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
 
 /// `[` and `]` go through the events.
 fn keys(ui: &Ui, cx: &mut Cx<'_>, rows: usize) {
-    if ui.ctx().egui_wants_keyboard_input() {
+    if ui.ctx().text_edit_focused() {
         return;
     }
     let state = &mut cx.inspector.path;
