@@ -89,9 +89,9 @@ pub(super) fn family<E: Estimator>(
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
         (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, company),
-        (Mode::Spectral, true) => in_medium::<E, Grey<true>, 1>(scene, s, at, company),
+        (Mode::Spectral, true) => in_grey_medium::<E, Grey<true>>(scene, s, at, company),
         (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, company),
-        (Mode::Rgb, true) => in_medium::<E, Grey<false>, 1>(scene, s, at, company),
+        (Mode::Rgb, true) => in_grey_medium::<E, Grey<false>>(scene, s, at, company),
     }
 }
 
@@ -118,6 +118,20 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
         AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, company),
         AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, company),
         AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, company),
+    }
+}
+
+/// As [`in_medium`], without a kernel for grids of colours: they are never without one.
+fn in_grey_medium<E: Estimator, C: Components<1>>(
+    scene: &Scene,
+    s: &Settings,
+    at: PathIndex,
+    company: Company<'_>,
+) -> PathEstimate {
+    match &scene.medium {
+        AnyMedium::Homogeneous(m) => path::<E, _, C, 1>(m, scene, s, at, company),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, 1>(m, scene, s, at, company),
+        AnyMedium::RgbGrids(_) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, company),
     }
 }
 

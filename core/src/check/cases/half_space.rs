@@ -14,7 +14,7 @@
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
-use super::{AXIS, BY_HERO};
+use super::{AXIS, BY_HERO, WALKING_AND_ALL};
 use crate::scene::{Absorption, CoefficientsDoc};
 use crate::spectrum::SpectrumDoc;
 
@@ -103,13 +103,14 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         })
         .answered(Answer::uniform(colour.map(|c| escape(albedo_of(c))), Layout::WHOLE));
     Ok(vec![
-        sums.among(&BY_HERO),
-        coloured.among(&BY_HERO),
+        sums.among(&WALKING_AND_ALL),
+        coloured.among(&WALKING_AND_ALL),
         rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue)
-            .among(&BY_HERO),
+            .among(&WALKING_AND_ALL),
         rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1))
+            .among(&WALKING_AND_ALL),
+        nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2))
             .among(&BY_HERO),
-        nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2)),
         grey,
     ])
 }

@@ -204,7 +204,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         two_powers()?.among(&CONNECTING_AND_ONE),
         occluder()?.among(&CONNECTING_AND_ONE),
         tiny_sun()?.among(&CONNECTING),
-        lamp_inside()?,
+        lamp_inside()?.among(&CONNECTING_AND_ONE),
         diffuse_ground()?.among(&CONNECTING),
     ])
 }

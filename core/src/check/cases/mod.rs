@@ -41,6 +41,16 @@ static CONNECTING_AND_ONE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|e| e.id == "spectral-mis").chain(CONNECTING.iter()).copied().collect()
 });
 
+/// Those whose paths carry several components. Whoever carries one at a time is noisier by what colours the noise, and is
+/// left out of cases about what it has no part in: it would take most of their time.
+static SEVERAL_COMPONENTS: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.id != "independent").copied().collect());
+
+/// Walking alone, and all that there is: for cases about the medium, in which connecting alone takes long to tell.
+static WALKING_AND_ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+    REGISTRY.iter().filter(|entry| ["spectral-mis", "uni-nee-mis"].contains(&entry.id)).copied().collect()
+});
+
 /// Those whose paths fly by the majorant of their hero: where extinctions differ a hundredfold, whoever flies by that of
 /// the densest component takes a hundred times as long to tell the same.
 static BY_HERO: LazyLock<Vec<Entry>> = LazyLock::new(|| {
