@@ -14,7 +14,7 @@ use super::inspector::Inspector;
 use super::state::Wall;
 use crate::lab::Command;
 use crate::theme::{Palette, UNIT};
-use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
+use egui::{Align, Button, ComboBox, Frame, Label, Layout, Margin, RichText, Ui};
 use majorant_core::scene::SceneDoc;
 
 /// What a tab sees.
@@ -77,13 +77,20 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
         ui.set_width(ui.available_width());
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            for t in &offered {
+            let choose = |ui: &mut Ui, cx: &mut Cx<'_>, t: &dyn Tab| {
                 let on = t.id() == tab.id();
                 let text =
                     RichText::new(t.title()).small().color(if on { palette.strong } else { palette.text });
                 if ui.add(Button::selectable(on, text)).clicked() {
                     cx.commands.push(Command::ShowTab(t.id()));
                 }
+            };
+            if ui.available_width() < 72.0 * offered.len() as f32 {
+                let list = ComboBox::from_id_salt("tabs").selected_text(RichText::new(tab.title()).small());
+                let list = list.show_ui(ui, |ui| offered.iter().for_each(|t| choose(ui, cx, **t)));
+                list.response.accessible_name("Numbers of this kind");
+            } else {
+                offered.iter().for_each(|t| choose(ui, cx, **t));
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let button = Button::new(RichText::new("Copy as CSV").small());

@@ -171,7 +171,7 @@ fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
         let PathIndex { x, y, sample } = heavy.at;
         let name = format!("({x}, {y}) #{sample}");
         ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = UNIT;
+            ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
             let link = ui.link(RichText::new(&name).small().monospace());
             let tip = "Its events, one by one: a pixel and the number of its sample";
             if link.on_hover_text(tip).clicked() {

@@ -34,6 +34,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let room = (ui.available_height() - detail - 2.0 * height).max(40.0);
     egui::ScrollArea::horizontal().id_salt("ledger").auto_shrink([false, true]).show(ui, |ui| {
+        let event = if ui.available_width() > 460.0 { 150.0 } else { 100.0 };
         let mut table = TableBuilder::new(ui)
             .striped(true)
             .sense(Sense::click())
@@ -42,7 +43,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
             .max_scroll_height(room)
             .cell_layout(Layout::right_to_left(Align::Center))
             .column(Column::exact(20.0))
-            .column(Column::initial(100.0).at_least(80.0))
+            .column(Column::initial(event).at_least(80.0))
             .columns(Column::auto().at_least(50.0), 3)
             .column(Column::remainder().at_least(52.0));
         if std::mem::take(&mut state.scroll) {

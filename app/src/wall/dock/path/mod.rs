@@ -75,9 +75,10 @@ impl Tab for Path {
         let replayed = replay(cx, Some(ui.ctx().clone()));
         bar_ui(ui, cx, pixel, chosen, replayed.as_deref());
         let room = ui.available_rect_before_wrap();
-        let narrow = room.width() < 620.0;
+        // The books come first: what does not fit beside them is left out.
+        let (narrow, alone) = (room.width() < 620.0, room.width() < 480.0);
         let list_width = if narrow { 0.0 } else { 138.0 };
-        let ledger_width = (0.57 * (room.width() - list_width)).max(300.0);
+        let ledger_width = if alone { room.width() } else { (0.57 * (room.width() - list_width)).max(300.0) };
         let (left, rest) = room.split_left_right_at_x(room.left() + list_width);
         let (middle, right) = rest.split_left_right_at_x(rest.right() - ledger_width);
         if !narrow {
@@ -87,10 +88,12 @@ impl Tab for Path {
             return empty(&mut part(ui, rest), "The path is being traced again.");
         };
         keys(ui, cx, replayed.ledger.rows.len());
-        let middle = middle.with_max_x(middle.right() - 6.0);
-        let (above, below) = middle.split_top_bottom_at_y(middle.bottom() - segment::HEIGHT);
-        space::space_ui(&mut part(ui, above.with_max_y(above.bottom() - 4.0)), cx, &replayed);
-        segment::segment_ui(ui, cx, &replayed, below);
+        if !alone {
+            let middle = middle.with_max_x(middle.right() - 6.0);
+            let (above, below) = middle.split_top_bottom_at_y(middle.bottom() - segment::HEIGHT);
+            space::space_ui(&mut part(ui, above.with_max_y(above.bottom() - 4.0)), cx, &replayed);
+            segment::segment_ui(ui, cx, &replayed, below);
+        }
         events::events_ui(&mut part(ui, right), cx, &replayed);
         ui.advance_cursor_after_rect(room);
     }
@@ -156,7 +159,7 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
     let palette = Palette::get(ui);
     let view = cx.wall.selected();
     let several = cx.doc.view_count() > 1;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let of = if several { format!("{}  ", label(view)) } else { String::new() };
         let title = format!("{of}pixel ({x}, {y}), sample {sample}");
         ui.label(RichText::new(title).small().color(palette.strong));
