@@ -1,7 +1,6 @@
 //! `majorant parts`: an image taken apart.
 
-use super::{Failure, options, print_line, source};
-use majorant_core::estimator::{self, Settings};
+use super::{Failure, print_line, source};
 use majorant_core::inspect::{Split, Strategies, StrategyPlan};
 use majorant_core::io::export;
 use majorant_core::transport::Wanted;
@@ -15,8 +14,8 @@ is bright where the others are dark.
 
 --json prints one line: by, spp, and parts with name, mean [r,g,b] and variance_share.")]
 pub(super) struct Arguments {
-    /// A scene file, or the name of an embedded scene.
-    scene: String,
+    #[command(flatten)]
+    traced: source::Traced,
     /// technique, order, nulls or hero.
     #[arg(long, value_name = "WHAT", default_value = "technique", value_parser = parse_split)]
     by: Split,
@@ -26,12 +25,6 @@ pub(super) struct Arguments {
     /// A directory for a picture of each part, as shown.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// An id that `majorant estimators` lists.
-    #[arg(long, value_name = "ID")]
-    estimator: Option<String>,
-    /// Sets any key of the scene. Repeatable.
-    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
-    set: Vec<String>,
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
@@ -44,12 +37,7 @@ fn parse_split(text: &str) -> Result<Split, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let id = ("estimator.id", arguments.estimator.as_ref().map(|id| format!("{id:?}")));
-    let source::Frozen { doc, scene } =
-        source::frozen(&arguments.scene, &options::assignments(&arguments.set, &[id]))?;
-    let entry = estimator::find(&doc.estimator.id)
-        .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
-    let settings = Settings::new(&doc.estimator, doc.render.seed);
+    let source::Frozen { doc, scene, entry, settings } = arguments.traced.frozen()?;
     let samples = (0, u64::from(arguments.spp));
     let plan = StrategyPlan::whole(&scene, entry.kernel, &settings, samples);
     let Some(parts) = Strategies::render(&plan, arguments.by, Wanted::ALWAYS) else { return Ok(()) };

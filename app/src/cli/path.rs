@@ -1,7 +1,7 @@
 //! `majorant path`: one path of an image, event by event.
 
-use super::{Failure, options, print_line, source};
-use majorant_core::estimator::{self, PathIndex, Settings};
+use super::{Failure, print_line, source};
+use majorant_core::estimator::{Entry, PathIndex, Settings};
 use majorant_core::inspect::{Ledger, Recording, Row};
 use majorant_core::scene::Scene;
 use majorant_core::spectrum::Carried;
@@ -20,8 +20,8 @@ says that it should be.
 
 --json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components.")]
 pub(super) struct Arguments {
-    /// A scene file, or the name of an embedded scene.
-    scene: String,
+    #[command(flatten)]
+    traced: source::Traced,
     /// Column and row, from the upper left.
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pixel: (u32, u32),
@@ -31,12 +31,6 @@ pub(super) struct Arguments {
     /// Samples among which the brightest is looked for.
     #[arg(long, value_name = "N", default_value_t = 64, conflicts_with = "sample")]
     of: u64,
-    /// An id that `majorant estimators` lists.
-    #[arg(long, value_name = "ID")]
-    estimator: Option<String>,
-    /// Sets any key of the scene. Repeatable.
-    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
-    set: Vec<String>,
     /// Print one line of JSON.
     #[arg(long)]
     json: bool,
@@ -50,17 +44,12 @@ fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let id = ("estimator.id", arguments.estimator.as_ref().map(|id| format!("{id:?}")));
-    let source::Frozen { doc, scene } =
-        source::frozen(&arguments.scene, &options::assignments(&arguments.set, &[id]))?;
-    let entry = estimator::find(&doc.estimator.id)
-        .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
+    let source::Frozen { scene, entry, settings, .. } = arguments.traced.frozen()?;
     let (x, y) = arguments.pixel;
     if x >= scene.width || y >= scene.height {
         let size = format!("{} × {}", scene.width, scene.height);
         return Err(Failure::Message(format!("pixel {x},{y} is outside of the image of {size}")));
     }
-    let settings = Settings::new(&doc.estimator, doc.render.seed);
     let sample =
         arguments.sample.unwrap_or_else(|| brightest(&scene, entry, &settings, (x, y), arguments.of));
     let at = PathIndex { x, y, sample };
@@ -84,13 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     print_line(&format!("on the film: {} {} {} (linear sRGB)", film.x, film.y, film.z))
 }
 
-fn brightest(
-    scene: &Scene,
-    entry: &estimator::Entry,
-    settings: &Settings,
-    (x, y): (u32, u32),
-    of: u64,
-) -> u64 {
+fn brightest(scene: &Scene, entry: &Entry, settings: &Settings, (x, y): (u32, u32), of: u64) -> u64 {
     let brightness = |sample: u64| {
         let at = PathIndex { x, y, sample };
         (entry.kernel)(scene, settings, at, Wanted::ALWAYS.into()).rgb.element_sum()

@@ -1,6 +1,7 @@
 //! Where a SCENE argument comes from: a file, or an embedded name.
 
-use super::Failure;
+use super::{Failure, options};
+use majorant_core::estimator::{self, Entry, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::scene::{Scene, SceneDoc, build};
 use std::path::Path;
@@ -11,21 +12,42 @@ pub(super) struct Source {
     pub resources: Library,
 }
 
-/// A scene ready for paths, with the document that it is made from.
+/// What commands about single paths are asked about.
+#[derive(clap::Args, Debug)]
+pub(super) struct Traced {
+    /// A scene file, or the name of an embedded scene.
+    scene: String,
+    /// An id that `majorant estimators` lists.
+    #[arg(long, value_name = "ID")]
+    estimator: Option<String>,
+    /// Sets any key of the scene. Repeatable.
+    #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
+    set: Vec<String>,
+}
+
+/// A scene ready for paths, with what traces them.
 pub(super) struct Frozen {
     pub doc: SceneDoc,
     pub scene: Scene,
+    pub entry: &'static Entry,
+    pub settings: Settings,
 }
 
-/// Loads a scene, sets keys of it and freezes it.
-pub(super) fn frozen(scene: &str, assignments: &[String]) -> Result<Frozen, Failure> {
-    let mut source = load(scene)?;
-    let doc = scene_file::override_keys(&source.doc, assignments)?;
-    if let Some(problem) = majorant_core::estimator::validate(&doc).first() {
-        return Err(Failure::Message(problem.to_string()));
+impl Traced {
+    /// Loads the scene, sets keys of it and freezes it.
+    pub fn frozen(&self) -> Result<Frozen, Failure> {
+        let mut source = load(&self.scene)?;
+        let id = ("estimator.id", self.estimator.as_ref().map(|id| format!("{id:?}")));
+        let doc = scene_file::override_keys(&source.doc, &options::assignments(&self.set, &[id]))?;
+        if let Some(problem) = estimator::validate(&doc).first() {
+            return Err(Failure::Message(problem.to_string()));
+        }
+        let entry = estimator::find(&doc.estimator.id)
+            .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
+        let settings = Settings::new(&doc.estimator, doc.render.seed);
+        let scene = build(&doc, &mut source.resources)?;
+        Ok(Frozen { doc, scene, entry, settings })
     }
-    let scene = build(&doc, &mut source.resources)?;
-    Ok(Frozen { doc, scene })
 }
 
 /// Loads a scene by embedded name or path; an existing file comes first.
