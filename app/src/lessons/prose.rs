@@ -158,7 +158,8 @@ impl Paragraph {
 fn paragraph_ui(ui: &mut Ui, mut job: LayoutJob, equations: &[Inline]) {
     job.wrap.max_width = ui.available_width();
     let galley = ui.fonts_mut(|fonts| fonts.layout_job(job));
-    let corner = ui.add(Label::new(Arc::clone(&galley))).rect.min;
+    let label = ui.add(Label::new(Arc::clone(&galley)));
+    let corner = label.rect.min;
     let mut held = galley.rows.iter().flat_map(|row| {
         let from = corner + row.pos.to_vec2();
         row.glyphs.iter().filter(|glyph| glyph.chr == HELD).map(move |glyph| from + glyph.pos.to_vec2())
@@ -168,8 +169,7 @@ fn paragraph_ui(ui: &mut Ui, mut job: LayoutJob, equations: &[Inline]) {
         held.by_ref().take(letters - 1).for_each(drop);
         let rect = Rect::from_min_size(baseline - Vec2::new(PADDING, equation.baseline), equation.size);
         paint(ui, equation, rect.min, Palette::get(ui).strong);
-        let id = ui.scope_id().with(("equation", corner.y.to_bits(), i));
-        spoken(&ui.interact(rect, id, egui::Sense::hover()), tex);
+        spoken(&ui.interact(rect, label.id.with(i), egui::Sense::hover()), tex);
     }
 }
 
