@@ -40,6 +40,10 @@ fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
     assert!((0..4).all(|i| grey(i) <= grey(chosen)), "{chosen} of {samples:?}");
     click(&mut lab, Role::Button, "Next event");
     assert_eq!(lab.state().inspector().path.step, 1);
+    // The chosen event's books, at every component.
+    for name in ["f", "p uni", "p nee", "majorant"] {
+        assert!(lab.query_all_by_label(name).next().is_some(), "{name}");
+    }
     // Keys go through the events, and do nothing else.
     for (key, step) in [(Key::CloseBracket, 2), (Key::CloseBracket, 3), (Key::OpenBracket, 2)] {
         lab.key_press(key);

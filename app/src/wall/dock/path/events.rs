@@ -1,16 +1,17 @@
 //! The ledger: event by event what the path contributes and how likely it is, and what light that adds.
 
 use super::super::Cx;
+use super::event::event_ui;
 use crate::theme::Palette;
 use crate::wall::inspector::Replayed;
 use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
-use majorant_core::inspect::{Branch, Credit, Row, Step};
+use majorant_core::inspect::{Branch, Row, Step};
 
 /// The colour of an event, in space and in the table.
 pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
     match (row.step, row.branch) {
-        (Step::Credit, _) => Color32::from_rgb(236, 190, 60),
+        (Step::Credit, _) => palette.warning,
         (Step::Absorb | Step::Die(_), _) => palette.error,
         (Step::Null, Branch::Path | Branch::LightWalk) => palette.weak,
         (Step::Null, _) => Color32::from_rgb(196, 140, 88),
@@ -28,9 +29,8 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let state = &mut cx.inspector.path;
     state.step = state.step.min(ledger.rows.len().saturating_sub(1));
     let (step, mut clicked) = (state.step, None);
-    let defined = ledger.credits().any(|c| c.by_definition.is_some());
     // The chosen event in full stands below the table.
-    let detail = height * 5.0 + 10.0;
+    let detail = (0.45 * ui.available_height()).clamp(5.0 * height, 10.0 * height);
     ui.spacing_mut().item_spacing.x = 4.0;
     let room = (ui.available_height() - detail - 2.0 * height).max(40.0);
     egui::ScrollArea::horizontal().id_salt("ledger").auto_shrink([false, true]).show(ui, |ui| {
@@ -83,7 +83,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
         state.step = i;
     }
     if let Some(row) = ledger.rows.get(state.step) {
-        detail_ui(ui, row, kept_names, ledger.carried.count(), defined);
+        event_ui(ui, row, kept_names, ledger);
     }
 }
 
@@ -113,74 +113,4 @@ fn row_ui(row: &mut TableRow<'_, '_>, i: usize, event: &Row, palette: &Palette) 
             ui.add(Label::new(text).selectable(false));
         }
     });
-}
-
-/// Everything about one event, at every component.
-fn detail_ui(ui: &mut Ui, row: &Row, names: [&str; 3], count: usize, defined: bool) {
-    let palette = Palette::get(ui);
-    ui.add_space(3.0);
-    ui.separator();
-    let weak = |ui: &mut Ui, text: String| {
-        ui.add(Label::new(RichText::new(text).small().monospace().color(palette.weak)).truncate());
-    };
-    let values = |values: &[f32]| values.iter().map(|v| short(*v)).collect::<Vec<_>>().join("  ");
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(row.step.to_string()).small().color(colour(row, palette)));
-        if !row.numbers.is_empty() {
-            weak(ui, format!("random numbers {}", values(&row.numbers)));
-        }
-    });
-    match (row.step, &row.found, &row.credit) {
-        (_, _, Some(credit)) => credit_ui(ui, credit, count, defined),
-        (_, Some(found), _) => {
-            weak(ui, format!("μa {}", values(&found.absorption[..count])));
-            weak(
-                ui,
-                format!("μs {}   μn {}", values(&found.scattering[..count]), values(&found.null[..count])),
-            );
-            weak(ui, format!("majorant {}", values(&found.majorant[..count])));
-        }
-        (Step::Leave(value, density), ..) => {
-            weak(
-                ui,
-                format!("phase function or cosine lobe {value:.5}, drawn with density {density:.5} /sr"),
-            );
-        }
-        (Step::Connect(value, walk, light), ..) => {
-            weak(ui, format!("phase function {value:.5}, the walk's density {walk:.5} /sr"));
-            weak(ui, format!("the light's density {light:.5} /sr"));
-        }
-        _ => {}
-    }
-    if let (Some(kept), None) = (&row.kept, &row.credit) {
-        let parts = names.iter().zip(&kept.values).filter(|(name, _)| !name.is_empty());
-        let text: Vec<_> = parts.map(|(name, v)| format!("{name} {}", values(&v[..count]))).collect();
-        weak(ui, text.join("   "));
-    }
-}
-
-fn credit_ui(ui: &mut Ui, credit: &Credit, count: usize, defined: bool) {
-    let palette = Palette::get(ui);
-    let values = |values: &[f32]| values.iter().map(|v| short(*v)).collect::<Vec<_>>().join("  ");
-    let line = |ui: &mut Ui, text: String| {
-        ui.add(Label::new(RichText::new(text).small().monospace().color(palette.text)).truncate());
-    };
-    let nulls = credit.nulls;
-    line(ui, format!("{}, scattered {} ×, {nulls} null collisions", credit.technique.name(), credit.order));
-    line(ui, format!("light {}", values(&credit.emitted[..count])));
-    line(ui, format!("added {}", values(&credit.value[..count])));
-    if let Some(by_definition) = credit.by_definition {
-        line(ui, format!("Le f / mean p  {}", values(&by_definition[..count])));
-    } else if !defined {
-        line(ui, "its paths have no densities to hold this against".to_owned());
-    }
-}
-
-/// Five significant digits, whatever the size.
-fn short(value: f32) -> String {
-    match value.abs() {
-        0.0 => "0".to_owned(),
-        size if (1e-3..1e5).contains(&size) => format!("{value:.4}"),
-        _ => format!("{value:.2e}"),
-    }
 }

@@ -2,6 +2,7 @@
 //!
 //! The three sides show the same step: choosing an event in one marks it in the others.
 
+mod event;
 mod events;
 mod list;
 mod segment;
