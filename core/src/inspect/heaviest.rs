@@ -151,6 +151,18 @@ mod tests {
         let first = &walks.named[0];
         assert_eq!((walks.named.len(), first.technique.as_str()), (NAMED, "unidirectional"));
         assert!(first.times_mean > 8.0 && first.share >= walks.named[1].share);
+        // The weights of a pixel sum to what the parts of its image have as variance.
+        let kernel = find("uni-nee-mis").unwrap().kernel;
+        let pixel = StrategyPlan {
+            window: [24, 18, 25, 19],
+            ..StrategyPlan::whole(&scene, kernel, &settings, (0, 16))
+        };
+        let mut weighed = Vec::new();
+        weigh(&pixel, [24, 18], Wanted::ALWAYS, &mut weighed).unwrap();
+        let sum: f64 = weighed.iter().map(|w| f64::from(w.weight)).sum();
+        let parts = crate::inspect::Strategies::render(&pixel, Split::Technique, Wanted::ALWAYS).unwrap();
+        let variance: f64 = parts.layers.iter().map(|layer| f64::from(layer.covariance[0])).sum();
+        assert!((sum / 15.0 - variance).abs() < 1e-5 * variance, "{sum} {variance}");
         assert!(walks.named.iter().all(|heavy| (heavy.at.x < 48) && (heavy.at.y < 36)));
     }
 }
