@@ -4,7 +4,7 @@ use super::{fails, succeeds};
 use serde_json::Value;
 
 /// A yardstick scene with its reference beside it, seen from the tests' own folder.
-const S3: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/oracle/S3/scene.toml");
+const S3: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/oracle/S3/scene.toml");
 
 fn rows(arguments: &[&str]) -> Vec<Value> {
     succeeds(arguments).lines().map(|line| serde_json::from_str(line).unwrap()).collect()

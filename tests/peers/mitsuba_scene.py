@@ -1,4 +1,4 @@
-"""One of tests/oracle's scenes (S2, S3, S4) for Mitsuba 3, read from Majorant's own scene file."""
+"""One of assets/oracle's scenes (S2, S3, S4) for Mitsuba 3, read from Majorant's own scene file."""
 import tomllib
 from pathlib import Path
 

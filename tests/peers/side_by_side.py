@@ -17,7 +17,7 @@ SCENES = {"S2": "side-lit cloud", "S3": "back-lit cloud", "S4": "chromatic plume
 
 def majorant(scene, seconds):
     command = [
-        "target/release/majorant", "bench", f"tests/oracle/{scene}/scene.toml", "--estimators", "uni-nee-mis",
+        "target/release/majorant", "bench", f"assets/oracle/{scene}/scene.toml", "--estimators", "uni-nee-mis",
         "--seconds", str(seconds), "--repeats", "4", "--json",
     ]
     line = subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -25,7 +25,7 @@ def majorant(scene, seconds):
 
 
 def mitsuba(python, scene, spp):
-    command = [python, "tests/peers/time_mitsuba.py", f"tests/oracle/{scene}", "--spp", str(spp)]
+    command = [python, "tests/peers/time_mitsuba.py", f"assets/oracle/{scene}", "--spp", str(spp)]
     line = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     answer = json.loads(line.splitlines()[-1])
     return answer["renderer"], answer["efficiency"]

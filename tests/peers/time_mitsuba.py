@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Times Mitsuba 3 on a scene of tests/oracle and prints one line of JSON, in the units of `majorant bench`.
+"""Times Mitsuba 3 on a scene of assets/oracle and prints one line of JSON, in the units of `majorant bench`.
 
     python3 -m venv peer && peer/bin/pip install mitsuba numpy
-    peer/bin/python tests/peers/time_mitsuba.py tests/oracle/S3
+    peer/bin/python tests/peers/time_mitsuba.py assets/oracle/S3
 
 Mitsuba 3.6.4 is the last version whose volpathmis weighs wavelengths: use it for S4. It needs an LLVM (Debian's
 libllvm19; DRJIT_LIBLLVM_PATH names the library). relMSE is the mean of ((I - R)^2 - se^2) / (R^2 + 0.01) against

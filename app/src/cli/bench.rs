@@ -33,7 +33,7 @@ hi), heavy_tailed, reference. --csv prints the same as columns. What is not fini
 
 Examples:
   majorant bench first-light --seconds 4
-  majorant bench tests/oracle/S2/scene.toml --estimators uni-nee-mis,nee --seconds 5 --repeats 8 --json")]
+  majorant bench assets/oracle/S2/scene.toml --estimators uni-nee-mis,nee --seconds 5 --repeats 8 --json")]
 pub(super) struct Arguments {
     /// Scene files, or names of embedded scenes.
     scenes: Vec<String>,

@@ -1,10 +1,10 @@
 //! From a registry entry to a monomorphic path: mode and medium are matched once per path, and
 //! everything below is one specialised function per estimator × mode × medium.
 
-use super::Estimator;
+use super::{AxisSet, Estimator};
 use crate::math::{Sampler, SamplerKind};
 use crate::medium::{AnyMedium, Medium, SharedMajorant};
-use crate::scene::{Absorption, EstimatorDoc, Heuristic, Mode, Scene};
+use crate::scene::{EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, Radiance, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transmittance::TransmittanceKind;
 use crate::transport::{Company, Note, PathSettings, Trace, World};
@@ -57,12 +57,15 @@ impl Settings {
                 .unwrap_or(TransmittanceKind::ALONG_THE_PATH),
             directions: doc.directions,
             max_depth: doc.max_depth.unwrap_or(u32::MAX),
-            roulette_depth: match doc.absorption {
-                Absorption::Roulette => 0,
-                Absorption::Analogue | Absorption::Weighted => doc.roulette_depth.unwrap_or(u32::MAX),
-            },
+            roulette_depth: doc.roulette_depth.unwrap_or(u32::MAX),
         };
         Self { mode: doc.mode, sampler: doc.sampler, wavelengths: doc.wavelengths, path, seed }
+    }
+
+    /// The same with every axis that an estimator does not use at its default.
+    #[inline]
+    fn limited_to<E: Estimator>(&self) -> Self {
+        Self { path: self.path.limited_to(const { AxisSet::of(E::USES) }), ..*self }
     }
 }
 
@@ -85,6 +88,7 @@ pub(super) fn family<E: Estimator>(
     at: PathIndex,
     company: Company<'_>,
 ) -> PathEstimate {
+    let s = &s.limited_to::<E>();
     // What leaves components out, leaves the noise of their choice in.
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
@@ -102,6 +106,7 @@ pub(super) fn single<E: Estimator>(
     at: PathIndex,
     company: Company<'_>,
 ) -> PathEstimate {
+    let s = &s.limited_to::<E>();
     match s.mode {
         Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, company),
         Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, company),

@@ -15,48 +15,34 @@
 //! ups per path; relMSE 1.0, 0.93 and 0.99 times that of Uni+NEE MIS, in 1.3 to 1.8 of its time: none of these has
 //! a small light close by.
 
-use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, NO_FAULTS, ONE_WALK, PathEstimate, PathIndex, RESCALED, Settings,
-    clamped_majorant, dispatch,
-};
-use crate::math::Ray;
+use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
+use crate::math::{Beside, Ray};
 use crate::medium::LocalMedium;
-use crate::scene::{DistanceSampling, Scene};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    Company, EquiangularWeights, Event, LightDensities, Note, Passage, PathSettings, Reached, Technique,
-    Trace, WalkWeights, World,
+    EquiangularWeights, FlightEnd, LightDensities, Note, Passage, Reached, Technique, Trace, WalkWeights,
+    World, hero_event,
 };
+
+const USES: &[Axis] =
+    &[Axis::Absorption, Axis::Components, Axis::Techniques, Axis::Lights, Axis::LightSampling];
 
 pub(super) const ENTRY: Entry = Entry {
     id: "equiangular-mis",
     name: "Equiangular MIS",
     summary: "Uni+NEE MIS and distances drawn towards the light; wins for lamps in thin media.",
     reference: "Kulla & Fajardo 2012, section 4; Miller, Georgiev & Jarosz 2019, section 5.2",
-    unused: &[
-        ONE_WALK,
-        NO_FAULTS,
-        HERO_DRAWS,
-        RESCALED,
-        (Axis::Distances, "a vertex that is drawn by angle lies in the whole medium, not in a part of it"),
-        (
-            Axis::Transmittance,
-            "MIS needs the density of every null collision, which other estimates do not have",
-        ),
-    ],
+    uses: USES,
     infinite_variance: |_| None,
     bias_of: clamped_majorant,
-    kernel,
+    kernel: dispatch::family::<EquiangularMis>,
 };
 
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
-    let path = PathSettings { distances: DistanceSampling::Delta, ..settings.path };
-    dispatch::family::<EquiangularMis>(scene, &Settings { path, ..*settings }, at, company)
-}
-
-struct EquiangularMis;
+pub(super) struct EquiangularMis;
 
 impl Estimator for EquiangularMis {
+    const USES: &'static [Axis] = USES;
+
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
@@ -81,54 +67,45 @@ impl Estimator for EquiangularMis {
                 trace.tell(move || Note::ByAngleEnds);
             }
 
-            // Fly until something real happens; the weights follow every null collision.
-            let mut walk = world.walk(&ray, surface.t());
-            let scattered_at = loop {
-                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
-                if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += world.credit(
-                        Technique::Glow,
-                        (glow, 0.0),
-                        path.emitted(glow, &collision, heuristics),
-                        trace,
-                    );
+            // Fly to the next real event; the weights follow every null collision.
+            let flight = world.fly_to_event(
+                (&ray, surface.t()),
+                &mut path,
+                &mut radiance,
+                trace,
+                |path, emitted, collision| path.emitted(emitted, collision, heuristics),
+                hero_event,
+            );
+            let vertex = match flight {
+                FlightEnd::Absorption => return radiance,
+                FlightEnd::Scattering(point) => {
+                    reached = Reached::through(passage, point);
+                    world.scattering_vertex(point, &ray)
                 }
-                match collision.draw_event(trace) {
-                    Event::Null => path.null(&collision),
-                    Event::Absorption => return radiance,
-                    Event::Scattering => {
-                        path.scatter(&collision);
-                        break Some(collision.point);
+                FlightEnd::Exit => {
+                    // The walk has met light. Before the first real vertex only it could have.
+                    for light in world.arrivals(&ray, &surface, vertices == 0) {
+                        let (other, value) = match &last {
+                            None => (0.0, path.unidirectional(light.radiance, heuristics)),
+                            Some(vertex) => {
+                                let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
+                                let densities = reached.light_densities(world, light.index, ray.origin, nee);
+                                (nee, path.combined(light.radiance, densities, heuristics))
+                            }
+                        };
+                        radiance += world.record(Technique::Walk, (light.radiance, other), value, trace);
                     }
-                }
-            };
-
-            let vertex = if let Some(point) = scattered_at {
-                reached = Reached::through(passage, point);
-                world.scattering_vertex(point, &ray)
-            } else {
-                // The walk has met light. Before the first real vertex only it could have.
-                for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    let (other, value) = match &last {
-                        None => (0.0, path.unidirectional(light.radiance, heuristics)),
-                        Some(vertex) => {
-                            let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
-                            let densities = reached.light_densities(world, light.index, ray.origin, nee);
-                            (nee, path.combined(light.radiance, densities, heuristics))
-                        }
+                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                        return radiance;
                     };
-                    radiance += world.credit(Technique::Walk, (light.radiance, other), value, trace);
+                    path.reflect(albedo);
+                    reached = Reached::Otherwise;
+                    vertex
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
-                    return radiance;
-                };
-                path.reflect(albedo);
-                reached = Reached::Otherwise;
-                vertex
             };
 
             vertices += 1;
-            if !world.goes_on(vertices, &path, trace) {
+            if !world.within_depth(vertices, &path, trace) {
                 return radiance;
             }
             if let Some(aim) = world.aim(&vertex, trace) {
@@ -136,13 +113,13 @@ impl Estimator for EquiangularMis {
                 let link = path.connect(&aim.turn, densities);
                 if let Some(link) = world.arrive(&aim, link, trace) {
                     let (other, value) = (aim.turn.density, link.connected(aim.radiance, heuristics));
-                    radiance += world.credit(Technique::Connection, (aim.radiance, other), value, trace);
+                    radiance += world.record(Technique::Connection, (aim.radiance, other), value, trace);
                 }
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
-            ray = world.leave(&vertex, &mut path, trace);
+            ray = world.sample_direction(&vertex, &mut path, trace);
             last = Some(vertex);
         }
     }
@@ -155,20 +132,21 @@ fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     path: EquiangularWeights<N>,
     trace: &mut Trace<'_>,
 ) -> Option<C::Radiance> {
+    trace.start_beside(Beside::EquiangularVertex);
     let (from, by) = (passage.ray.origin, world.settings.lights);
     let choice = &world.scene.light_choice;
-    let (light, probability) = choice.choose(from, trace.sampler.next_1d(), by)?;
+    let (light, probability) = choice.choose(from, trace.connection.next_1d(), by)?;
     let pivot = world.scene.lights.get(light)?.center()?;
-    let (t, density) = passage.sample(pivot, trace.sampler.next_1d());
+    let (t, density) = passage.sample(pivot, trace.connection.next_1d());
     let mut link = world.pass_by_ratio(&passage.ray, t, path, trace)?;
     let collision = world.collision_at(&passage.ray, t, trace)?;
     link.scatter_by_angle(&collision, density * probability);
 
     let vertex = world.scattering_vertex(collision.point, &passage.ray);
-    let aim = world.aim_at(&vertex, light, trace.sampler.next_2d())?;
+    let aim = world.aim_at(&vertex, light, trace.connection.next_2d())?;
     let nee = aim.density * choice.probability(light, collision.point, by);
     let link = link.connect_by_angle(&aim.turn, LightDensities { nee, eq: aim.density });
     let link = world.arrive(&aim, link, trace)?;
     let value = link.connected_by_angle(aim.radiance, world.settings.heuristics);
-    Some(world.credit(Technique::Angle, (aim.radiance, aim.turn.density), value, trace))
+    Some(world.record(Technique::Angle, (aim.radiance, aim.turn.density), value, trace))
 }

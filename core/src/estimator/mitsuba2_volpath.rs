@@ -18,36 +18,28 @@
 //! ups per path; relMSE 7.5, 1.15 and 1.6 times that of Uni+NEE MIS, in 0.8 to 1.6 of its time.
 
 use super::{
-    Axis, Entry, Estimator, Kernel, NO_FAULTS, ONE_WALK, PathEstimate, PathIndex, Settings,
-    biased_transmittance, clamped_majorant, dispatch,
+    Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, biased_transmittance,
+    clamped_majorant, dispatch, is_uniform,
 };
-use crate::math::Ray;
+use crate::math::{Beside, Ray};
 use crate::medium::{AnyMedium, LocalMedium};
-use crate::scene::{DensityDoc, Scene, SceneDoc};
+use crate::scene::{Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transport::{Company, Kept, Note, Technique, Trace, World};
+
+const USES: &[Axis] = &[Axis::Lights, Axis::LightSampling, Axis::Transmittance];
 
 pub(super) const ENTRY: Entry = Entry {
     id: "mitsuba2-volpath",
     name: "Mitsuba 2 volpath",
     summary: "The report's older baseline: MIS per bounce, one component at a time in chromatic grids.",
     reference: "Horešovský's report, algorithms 1–3; Nimier-David et al. 2019",
-    unused: &[
-        ONE_WALK,
-        NO_FAULTS,
-        (Axis::Absorption, "its scattering is weighted by μs / μt"),
-        (Axis::Distances, "it tracks by delta in grids, and by the average extinction elsewhere"),
-        (Axis::Books, "it keeps throughput over density only"),
-        (Axis::Components, "it knows no densities of whole paths"),
-        (Axis::Techniques, "it combines them per bounce, by the power heuristic"),
-        (Axis::Tracking, "delta tracking draws its events"),
-    ],
+    uses: USES,
     infinite_variance,
     bias_of,
     kernel: kernel as Kernel,
 };
 
-/// Delta tracking has no weight for collisions that exceed the majorant.
 /// Where components differ, the weight of a thin one is a product of e^((mean − μ) t), which nothing bounds.
 fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
     let (extinction, _) = doc.medium.extinction_and_albedo(0.0);
@@ -55,20 +47,18 @@ fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
     coloured.then_some("flights by the mean extinction give thin components weights that nothing bounds")
 }
 
-fn is_uniform(doc: &SceneDoc) -> bool {
-    matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none()
-}
-
+/// A uniform medium is flown through by closed forms, which ask for no majorant. Delta tracking has no weight for
+/// collisions that exceed one.
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
-    if let Some(why) = clamped_majorant(doc) {
-        return Some(why);
-    }
     if doc.medium.emission.is_some() {
         return Some("it knows no light from within the medium");
     }
-    let exceeded = doc.medium.majorant.factor < 1.0 && !is_uniform(doc);
-    exceeded
-        .then_some("its delta tracking needs a majorant that bounds")
+    if is_uniform(doc) {
+        return None;
+    }
+    let exceeded = doc.medium.majorant.factor < 1.0;
+    clamped_majorant(doc)
+        .or(exceeded.then_some("its delta tracking needs a majorant that bounds"))
         .or_else(|| biased_transmittance(doc))
 }
 
@@ -83,6 +73,8 @@ fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_
 struct Mitsuba2Volpath;
 
 impl Estimator for Mitsuba2Volpath {
+    const USES: &'static [Axis] = USES;
+
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
@@ -103,7 +95,7 @@ impl Estimator for Mitsuba2Volpath {
                 if vertices == 0 {
                     for light in world.arrivals(&ray, &surface, true) {
                         let value = light.radiance * phi;
-                        radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
+                        radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
                 }
                 let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
@@ -124,7 +116,7 @@ impl Estimator for Mitsuba2Volpath {
                 let (p_e, p_p) = (aim.density, aim.turn.density);
                 let weight = aim.turn.value * p_e / (p_e * p_e + p_p * p_p);
                 let value = aim.radiance * (phi * world.transmittance_to(&aim, trace) * weight);
-                radiance += world.credit(Technique::Connection, (aim.radiance, p_p), value, trace);
+                radiance += world.record(Technique::Connection, (aim.radiance, p_p), value, trace);
             }
 
             // The direction in which the path goes on.
@@ -136,13 +128,14 @@ impl Estimator for Mitsuba2Volpath {
                 let p_p = turn.density;
                 let weight = turn.value * p_p / (p_p * p_p + p_e * p_e);
                 trace.tell(move || Note::LightWalk);
+                trace.start_beside(Beside::LightWalk);
                 let value = light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
-                radiance += world.credit(Technique::Walk, (light.radiance, p_e), value, trace);
+                radiance += world.record(Technique::Walk, (light.radiance, p_e), value, trace);
                 trace.tell(move || Note::LightWalkEnds);
             }
             phi *= turn.value / turn.density;
 
-            if vertices >= world.settings.roulette_depth {
+            if vertices >= world.settings.first_roulette() {
                 let q = phi.max_component().clamp(0.05, 1.0);
                 let u = trace.sampler.roulette();
                 trace.tell(move || Note::Roulette { u, q });

@@ -15,31 +15,24 @@
 //! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.4, 2.8 and 2.9 look-
 //! ups per path; relMSE 0.87, 3.9 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.7 of its time.
 
-use super::{
-    Axis, Entry, Estimator, NO_CONNECTIONS, NO_FAULTS, NOTHING_TO_ESTIMATE, ONE_TECHNIQUE, ONE_WALK,
-    clamped_majorant, dispatch,
-};
+use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
 use crate::medium::LocalMedium;
 use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
-use crate::transport::{Event, EventDensities, PathWeights, Technique, Trace, WalkWeights, World};
+use crate::transport::{
+    Collision, Event, EventDensities, FlightEnd, PathSettings, PathWeights, Technique, Trace, WalkWeights,
+    World,
+};
+
+const USES: &[Axis] = &[Axis::Absorption, Axis::Tracking];
 
 pub(super) const ENTRY: Entry = Entry {
     id: "spectral-tracking",
     name: "Spectral tracking",
     summary: "All components share each unidirectional path by event probabilities instead of MIS.",
     reference: "Kutz, Habel, Li & Novák 2017, section 5.1",
-    unused: &[
-        ONE_WALK,
-        NO_FAULTS,
-        (Axis::Distances, "its events are drawn for all components at once"),
-        (Axis::Books, "it has no densities to keep"),
-        (Axis::Components, "it forms no densities that could be combined"),
-        ONE_TECHNIQUE,
-        NO_CONNECTIONS,
-        NOTHING_TO_ESTIMATE,
-    ],
+    uses: USES,
     infinite_variance,
     bias_of: clamped_majorant,
     kernel: dispatch::family::<SpectralTracking>,
@@ -55,6 +48,7 @@ fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
 pub(super) struct SpectralTracking;
 
 impl Estimator for SpectralTracking {
+    const USES: &'static [Axis] = USES;
     const SHARED_MAJORANT: bool = true;
 
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
@@ -66,50 +60,56 @@ impl Estimator for SpectralTracking {
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {
-            // Fly until something real happens; the weights follow every event.
+            // Fly to the next real event; the weights follow every event.
             let surface = world.nearest_surface(&ray, vertices == 0);
-            let mut walk = world.walk(&ray, surface.t());
-            let scattered_at = loop {
-                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
-                if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += world.credit(
-                        Technique::Glow,
-                        (glow, 0.0),
-                        path.emitted_as_drawn(glow, &collision),
-                        trace,
-                    );
-                }
-                let densities = EventDensities::of(&collision, &path.contribution(), &world.settings);
-                match densities.draw_event(trace) {
-                    Event::Null => path.null_drawn(&collision, densities.drawn(densities.null)),
-                    Event::Absorption => return radiance,
-                    Event::Scattering => {
-                        path.scatter_drawn(&collision, densities.drawn(densities.scattering));
-                        break Some(collision.point);
+            let flight = world.fly_to_event(
+                (&ray, surface.t()),
+                &mut path,
+                &mut radiance,
+                trace,
+                |path, emitted, collision| path.emitted_as_drawn(emitted, collision),
+                |path, collision, trace| draw_for_all(&world.settings, path, collision, trace),
+            );
+            let vertex = match flight {
+                FlightEnd::Absorption => return radiance,
+                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Exit => {
+                    for light in world.arrivals(&ray, &surface, vertices == 0) {
+                        let value = path.as_drawn(light.radiance);
+                        radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
+                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                        return radiance;
+                    };
+                    path.reflect(albedo);
+                    vertex
                 }
-            };
-
-            let vertex = if let Some(point) = scattered_at {
-                world.scattering_vertex(point, &ray)
-            } else {
-                for light in world.arrivals(&ray, &surface, vertices == 0) {
-                    let value = path.as_drawn(light.radiance);
-                    radiance += world.credit(Technique::Walk, (light.radiance, 0.0), value, trace);
-                }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
-                    return radiance;
-                };
-                path.reflect(albedo);
-                vertex
             };
 
             vertices += 1;
-            if !world.goes_on(vertices, &path, trace) || !world.survives_roulette(vertices, &mut path, trace)
+            if !world.within_depth(vertices, &path, trace)
+                || !world.survives_roulette(vertices, &mut path, trace)
             {
                 return radiance;
             }
-            ray = world.leave(&vertex, &mut path, trace);
+            ray = world.sample_direction(&vertex, &mut path, trace);
         }
     }
+}
+
+/// Draws the event at a collision from densities of all components, and divides each component's weight by what was drawn.
+fn draw_for_all<const N: usize>(
+    settings: &PathSettings,
+    path: &mut PathWeights<N>,
+    collision: &Collision<N>,
+    trace: &mut Trace<'_>,
+) -> Event {
+    let densities = EventDensities::of(collision, &path.contribution(), settings);
+    let event = densities.draw_event(trace);
+    match event {
+        Event::Null => path.null_drawn(collision, densities.drawn(densities.null)),
+        Event::Scattering => path.scatter_drawn(collision, densities.drawn(densities.scattering)),
+        Event::Absorption => {}
+    }
+    event
 }

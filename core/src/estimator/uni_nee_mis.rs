@@ -14,39 +14,48 @@
 //! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and 14.2
 //! look-ups per path; relMSE what the other estimators' files are relative to.
 
-use super::{
-    Axis, Entry, Estimator, HERO_DRAWS, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch,
-};
-use crate::math::Ray;
+use super::{Axis, Entry, Estimator, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
+use crate::math::{Beside, Ray};
 use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, Fault, LightWalk, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Company, Event, Faulty, Note, Pairwise, Rescaled, Technique, Trace, Vertex,
-    WalkWeights, Weights, World,
+    ApartF32, ApartF64, Books, Company, Event, Faulty, FlightEnd, Note, Pairwise, Rescaled, Technique, Trace,
+    Vertex, WalkWeights, Weights, World, hero_event,
 };
 use std::marker::PhantomData;
+
+const USES: &[Axis] = &[
+    Axis::Absorption,
+    Axis::Distances,
+    Axis::Components,
+    Axis::Techniques,
+    Axis::Bookkeeping,
+    Axis::Lights,
+    Axis::LightSampling,
+    Axis::LightWalk,
+    Axis::Fault,
+];
 
 pub(super) const ENTRY: Entry = Entry {
     id: "uni-nee-mis",
     name: "Uni+NEE MIS",
     summary: "Unidirectional and next-event estimation combined, over all components; robust.",
     reference: "Miller, Georgiev & Jarosz 2019, section 5.2; Horešovský's report, algorithms 4–6, figure 3",
-    unused: &[
-        HERO_DRAWS,
-        (
-            Axis::Transmittance,
-            "MIS needs the density of every null collision, which other estimates do not have",
-        ),
-    ],
+    uses: USES,
     infinite_variance: |_| None,
     bias_of,
     kernel,
 };
 
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
-    let planted = (doc.estimator.fault != Fault::None).then_some("a fault is planted in it");
-    planted.or_else(|| clamped_majorant(doc))
+    if doc.estimator.fault != Fault::None {
+        return Some("a fault is planted in it");
+    }
+    if doc.estimator.bookkeeping == Bookkeeping::ApartF32 {
+        return Some("f and p in single precision overflow on long paths, which are lost");
+    }
+    clamped_majorant(doc)
 }
 
 /// One kernel for every way to keep the books.
@@ -64,6 +73,8 @@ fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_
 struct UniNeeMis<B>(PhantomData<B>);
 
 impl<B: Books> Estimator for UniNeeMis<B> {
+    const USES: &'static [Axis] = USES;
+
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         world: &World<'_, L, C, N>,
         mut ray: Ray,
@@ -75,56 +86,45 @@ impl<B: Books> Estimator for UniNeeMis<B> {
         let mut last: Option<Vertex> = None;
         let mut vertices = 0;
         loop {
-            // Fly until something real happens; the weights follow every null collision.
+            // Fly to the next real event; the weights follow every null collision.
             let surface = world.nearest_surface(&ray, vertices == 0);
-            let mut walk = world.walk(&ray, surface.t());
-            let scattered_at = loop {
-                let Some(collision) = walk.next_collision(trace, &mut path) else { break None };
-                if let Some(glow) = world.emission_at(&collision, trace) {
-                    radiance += world.credit(
-                        Technique::Glow,
-                        (glow, 0.0),
-                        path.emitted(glow, &collision, heuristics),
-                        trace,
-                    );
-                }
-                match collision.draw_event(trace) {
-                    Event::Null => path.null(&collision),
-                    Event::Absorption => return radiance,
-                    Event::Scattering => {
-                        path.scatter(&collision);
-                        break Some(collision.point);
+            let flight = world.fly_to_event(
+                (&ray, surface.t()),
+                &mut path,
+                &mut radiance,
+                trace,
+                |path, emitted, collision| path.emitted(emitted, collision, heuristics),
+                hero_event,
+            );
+            let vertex = match flight {
+                FlightEnd::Absorption => return radiance,
+                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Exit => {
+                    // The walk has met light. Before the first real vertex only it could have.
+                    if last.is_none() || world.settings.light_walk == LightWalk::Fused {
+                        world.add_light_on_ray(last.as_ref(), &ray, &surface, &path, &mut radiance, trace);
                     }
+                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                        return radiance;
+                    };
+                    path.reflect(albedo);
+                    vertex
                 }
-            };
-
-            let vertex = if let Some(point) = scattered_at {
-                world.scattering_vertex(point, &ray)
-            } else {
-                // The walk has met light. Before the first real vertex only it could have.
-                if last.is_none() || world.settings.light_walk == LightWalk::Fused {
-                    world.met(last.as_ref(), &ray, &surface, &path, &mut radiance, trace);
-                }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
-                    return radiance;
-                };
-                path.reflect(albedo);
-                vertex
             };
 
             vertices += 1;
-            if !world.goes_on(vertices, &path, trace) {
+            if !world.within_depth(vertices, &path, trace) {
                 return radiance;
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {
                 let value = link.weights.connected_combined(link.radiance, heuristics);
                 let other = link.turn.density;
-                radiance += world.credit(Technique::Connection, (link.radiance, other), value, trace);
+                radiance += world.record(Technique::Connection, (link.radiance, other), value, trace);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
-            ray = world.leave(&vertex, &mut path, trace);
+            ray = world.sample_direction(&vertex, &mut path, trace);
             if world.settings.light_walk == LightWalk::Separate {
                 by_separate_walk(world, &vertex, &ray, path, &mut radiance, trace);
             }
@@ -143,14 +143,15 @@ fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N:
     trace: &mut Trace<'_>,
 ) {
     trace.tell(move || Note::LightWalk);
+    trace.start_beside(Beside::LightWalk);
     let surface = world.nearest_surface(ray, false);
     let mut walk = world.walk_to_light(ray, surface.t());
     while let Some(collision) = walk.next_collision(trace, &mut path) {
-        match collision.draw_event(trace) {
+        match collision.draw_event_beside(trace) {
             Event::Null => path.null(&collision),
             Event::Absorption | Event::Scattering => return trace.tell(move || Note::LightWalkEnds),
         }
     }
-    world.met(Some(vertex), ray, &surface, &path, radiance, trace);
+    world.add_light_on_ray(Some(vertex), ray, &surface, &path, radiance, trace);
     trace.tell(move || Note::LightWalkEnds);
 }

@@ -29,6 +29,23 @@ pub enum SamplerKind {
 pub struct Sampler {
     rng: Pcg32,
     stratified: Option<Stratified>,
+    /// Seed, pixel and sample, mixed.
+    path: u64,
+    /// Seed and pixel, mixed: selects the generator's sequence.
+    pixel: u64,
+    /// Vertices that the path has left.
+    vertex: u32,
+}
+
+/// What is drawn beside the walk at a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// A connection from the vertex to a light.
+    Connection = 1,
+    /// A connection from a vertex that is drawn by angle on the way to the next one.
+    EquiangularVertex = 2,
+    /// A walk of its own towards the light in the direction in which the path goes on.
+    LightWalk = 3,
 }
 
 /// A number in [0, 1) from the upper 24 bits.
@@ -42,7 +59,18 @@ impl Sampler {
     #[must_use]
     pub fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         let key = mix(mix(seed).wrapping_add(pixel));
-        Self { rng: Pcg32::new(mix(key.wrapping_add(sample)), key), stratified: None }
+        let path = mix(key.wrapping_add(sample));
+        Self { rng: Pcg32::new(path, key), stratified: None, path, pixel: key, vertex: 0 }
+    }
+
+    /// Independent numbers of their own for what is drawn beside the walk at the present vertex, as a function of (seed,
+    /// pixel, sample, vertex): what a connection takes changes none of the walk's numbers, so that all estimators walk the
+    /// same path.
+    #[must_use]
+    #[inline]
+    pub fn beside_walk(&self, what: Beside) -> Self {
+        let path = mix(self.path ^ (u64::from(self.vertex) << 8 | what as u64));
+        Self { rng: Pcg32::new(path, self.pixel), stratified: None, path, pixel: self.pixel, vertex: 0 }
     }
 
     /// Numbers of a kind for sample number `sample` of pixel number `pixel` under `seed`.
@@ -71,6 +99,7 @@ impl Sampler {
     /// Begins the decisions that lead to the next vertex.
     #[inline]
     pub fn start_vertex(&mut self) {
+        self.vertex += 1;
         if self.stratified.as_mut().is_some_and(|point| !point.start_vertex()) {
             self.stratified = None;
         }
@@ -85,12 +114,13 @@ impl Sampler {
         }
     }
 
-    /// Two numbers for the point on a light, and one for the choice of the light.
+    /// Two numbers for the point on a light, and one for the choice of the light: evenly spread ones, or the next of
+    /// `connection`.
     #[inline]
-    pub fn light(&mut self) -> (Vec2, f32) {
+    pub fn light(&self, connection: &mut Self) -> (Vec2, f32) {
         match &self.stratified {
             Some(point) => (Vec2::new(point.of_vertex(2), point.of_vertex(3)), point.of_vertex(4)),
-            None => (self.next_2d(), self.next_1d()),
+            None => (connection.next_2d(), connection.next_1d()),
         }
     }
 
@@ -190,7 +220,8 @@ mod tests {
             }
             let flight = [s.optical_depth(), s.optical_depth()].map(|depth| -(-depth).exp_m1());
             let event = s.event();
-            let (point, light) = s.light();
+            let mut connection = s.beside_walk(Beside::Connection);
+            let (point, light) = s.light(&mut connection);
             let (direction, roulette) = (s.direction(), s.roulette());
             let decisions = [flight[0], flight[1], event, roulette, light];
             [jitter.x, jitter.y, component, point.x, point.y, direction.x, direction.y]

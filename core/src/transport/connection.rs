@@ -5,7 +5,7 @@
 
 use super::{Collision, Note, Technique, Trace, Turn, Vertex, WalkWeights, Weights, World};
 use crate::light::{Emitter, LobeParts};
-use crate::math::{BoxRay, Ray};
+use crate::math::{Beside, BoxRay, Ray};
 use crate::medium::LocalMedium;
 use crate::scene::{LightSampling, NearestSurface};
 use crate::spectrum::{Components, Sampled};
@@ -132,7 +132,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Draws a light and a direction towards it; `None` if it is dark there, or something stands in the way.
     pub fn aim(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Option<Aim<C::Radiance>> {
-        let (u, which) = trace.sampler.light();
+        trace.start_beside(Beside::Connection);
+        let (u, which) = trace.sampler.light(&mut trace.connection);
         let (light, probability) =
             self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
         let aim = self.aim_at(vertex, light, u)?;
@@ -164,10 +165,10 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         })
     }
 
-    /// Adds light that a walk has met at the end of a ray, shared with the connections of the vertex that it left. Light
-    /// that the camera sees could only be met.
+    /// Adds the light that a walk finds at the end of a ray, weighted against the connections of the vertex `last` that it
+    /// left. Without such a vertex (a ray of the camera) no connection could have made the path.
     #[inline]
-    pub fn met<W: Weights<N>>(
+    pub fn add_light_on_ray<W: Weights<N>>(
         &self,
         last: Option<&Vertex>,
         ray: &Ray,
@@ -185,7 +186,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
                     (nee, path.combined(light.radiance, nee, heuristics))
                 }
             };
-            *radiance += self.credit(Technique::Walk, (light.radiance, other), value, trace);
+            *radiance += self.record(Technique::Walk, (light.radiance, other), value, trace);
         }
     }
 
@@ -216,7 +217,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             return Sampled::ONE;
         };
         let profile = InMedium::new(&self.medium, inside);
-        let estimate = self.settings.transmittance.estimate(&profile, &mut trace.sampler);
+        let estimate = self.settings.transmittance.estimate(&profile, &mut trace.connection);
         trace.lookups += u64::from(estimate.lookups);
         trace.tell(move || Note::Transmittance { estimate: estimate.weight.lanes() });
         estimate.weight

@@ -16,6 +16,10 @@
 //! and the rest; a collision belongs to the control with density μc, and is real then, or to the rest with density
 //! μ̄ − μc, for which the table holds with μt − μc in place of μt. A path is one of a larger space, in which every
 //! collision is of one kind or the other; f and all densities are those of its kind, so that heuristics hold as before.
+//! Null collisions are all the rest's, with density μ̄ − μt where the majorant bounds: the same as without a control, so
+//! that connections, which are not split, agree with the walk. Where the majorant may be exceeded they would not (k of
+//! the rest differs from that of the whole), and the rest could be left with no density at all where its f is not zero:
+//! there is no control on such a segment, and the table holds for the whole medium.
 
 use super::{Found, Note, PathSettings, Trace};
 use crate::medium::Coefficients;
@@ -172,13 +176,27 @@ impl<const N: usize> Collision<N> {
     /// Draws the event from the hero's densities.
     pub fn draw_event(&self, trace: &mut Trace<'_>) -> Event {
         let u = trace.sampler.event();
+        self.draw_event_by(u, trace)
+    }
+
+    /// As [`Self::draw_event`], by a number of the connection at hand: for a walk beside the path's own.
+    pub fn draw_event_beside(&self, trace: &mut Trace<'_>) -> Event {
+        let u = trace.connection.next_1d();
+        self.draw_event_by(u, trace)
+    }
+
+    #[inline(always)]
+    fn draw_event_by(&self, u: f32, trace: &mut Trace<'_>) -> Event {
         let event = self.event_at(u * self.tentative.hero());
         trace.tell(move || Note::Drawn { event, u });
         event
     }
 
+    /// The event at a number from 0 to the hero's tentative density: absorption, scattering and null share that range in
+    /// this order, by their densities.
+    #[must_use]
     #[inline]
-    fn event_at(&self, u: f32) -> Event {
+    pub fn event_at(&self, u: f32) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
         // The three densities add up to the tentative one. An event of density zero is never drawn, even by rounding.
         if u < self.absorption_density {

@@ -15,7 +15,8 @@ pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
     violations: &'m Violations,
     rule: EventRule,
-    /// Whether it looks for the path's next vertex, whose random numbers it then may take.
+    /// Whether it looks for the path's next vertex, by the path's random numbers, or runs beside it, by those of the
+    /// connection at hand.
     to_vertex: bool,
     /// What is left of the way; `None` where the ray misses the medium, or has left it.
     way: Option<Way<'m, L, N>>,
@@ -78,9 +79,11 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         if trace.must_stop() {
             return None;
         }
-        let sampler = &mut trace.sampler;
-        let mut optical_depth =
-            if self.to_vertex { sampler.optical_depth() } else { sampler.next_optical_depth() };
+        let mut optical_depth = if self.to_vertex {
+            trace.sampler.optical_depth()
+        } else {
+            trace.connection.next_optical_depth()
+        };
         let mut passed = Sampled::ZERO;
         loop {
             let segment = &way.segment;
@@ -92,12 +95,11 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 weights.pass(passed);
                 way.t += distance;
                 let (point, inside) = (way.in_world.at(way.t), way.in_medium.at(way.t));
-                let collision = if self.rule.distances == DistanceSampling::Decomposition && self.to_vertex {
-                    collide_with_parts(self.medium, self.rule, (point, inside), segment, trace)
-                } else {
-                    trace.lookups += 1;
-                    Collision::new(point, self.medium.coefficients(inside, segment), self.rule)
-                };
+                let place = Place { point, inside, segment };
+                let part =
+                    if self.to_vertex { place.draw_part(self.medium, self.rule, trace) } else { Part::Whole };
+                trace.lookups += u64::from(part.needs_lookup());
+                let collision = place.collide(self.medium, self.rule, part);
                 if collision.coefficients.excess > 1.0 {
                     trace.exceeded += 1;
                     self.violations.note(inside, collision.coefficients.excess);
@@ -120,20 +122,78 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     }
 }
 
-/// A collision with one of the two parts of a medium, of which the control costs no look-up. Connections are not
-/// split: a collision that is taken as null counts against all of the medium.
-fn collide_with_parts<L: LocalMedium<N>, const N: usize>(
-    medium: &L,
-    rule: EventRule,
-    (point, inside): (Vec3, Vec3),
-    segment: &MajorantSegment<N>,
-    trace: &mut Trace<'_>,
-) -> Collision<N> {
-    let (control, albedo) = medium.control(inside).unwrap_or((Sampled::ZERO, Sampled::ZERO));
-    let control = control.zip(segment.majorant, f32::min);
-    if control.hero() > 0.0 && trace.sampler.next_1d() * segment.majorant.hero() < control.hero() {
-        return Collision::with_control(point, control, albedo, segment.majorant, rule.absorption);
+/// Where a walk collides.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'s, const N: usize> {
+    /// In world space.
+    pub point: Vec3,
+    /// In medium space.
+    pub inside: Vec3,
+    /// With its majorant.
+    pub segment: &'s MajorantSegment<N>,
+}
+
+/// Which part of the medium a walk collides with: a label of the path under decomposition tracking.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part<const N: usize> {
+    /// All of it: no part has been drawn.
+    Whole,
+    /// The control, of this extinction and albedo, known without a look-up.
+    Control(Sampled<N>, Sampled<N>),
+    /// What a control of this extinction and albedo leaves.
+    Rest(Sampled<N>, Sampled<N>),
+}
+
+impl<const N: usize> Part<N> {
+    fn needs_lookup(&self) -> bool {
+        !matches!(self, Self::Control(..))
     }
-    trace.lookups += 1;
-    Collision::with_rest(point, medium.coefficients(inside, segment), control, albedo, rule.absorption)
+}
+
+impl<const N: usize> Place<'_, N> {
+    /// The control's extinction and albedo: none under other rules than decomposition tracking, and none where the
+    /// majorant may be exceeded (see [`super::event`]).
+    #[must_use]
+    #[inline(always)]
+    pub fn control<L: LocalMedium<N>>(
+        &self,
+        medium: &L,
+        rule: EventRule,
+    ) -> Option<(Sampled<N>, Sampled<N>)> {
+        if rule.distances != DistanceSampling::Decomposition || self.segment.watched {
+            return None;
+        }
+        let (control, albedo) = medium.control(self.inside)?;
+        // The control is a lower bound, but for rounding.
+        Some((control.zip(self.segment.majorant, f32::min), albedo))
+    }
+
+    /// Draws the part that the walk collides with: the control with probability μc / μ̄ of the hero.
+    #[inline(always)]
+    fn draw_part<L: LocalMedium<N>>(&self, medium: &L, rule: EventRule, trace: &mut Trace<'_>) -> Part<N> {
+        let Some((control, albedo)) = self.control(medium, rule) else { return Part::Whole };
+        let hero = control.hero();
+        if hero > 0.0 && trace.sampler.next_1d() * self.segment.majorant.hero() < hero {
+            Part::Control(control, albedo)
+        } else {
+            Part::Rest(control, albedo)
+        }
+    }
+
+    /// The collision with a part of the medium. Connections are not split: a collision that is taken as null counts
+    /// against all of the medium.
+    #[must_use]
+    #[inline(always)]
+    pub fn collide<L: LocalMedium<N>>(&self, medium: &L, rule: EventRule, part: Part<N>) -> Collision<N> {
+        let coefficients = || medium.coefficients(self.inside, self.segment);
+        match part {
+            Part::Whole => Collision::new(self.point, coefficients(), rule),
+            Part::Control(control, albedo) => {
+                Collision::with_control(self.point, control, albedo, self.segment.majorant, rule.absorption)
+            }
+            Part::Rest(control, albedo) => {
+                Collision::with_rest(self.point, coefficients(), control, albedo, rule.absorption)
+            }
+        }
+    }
 }

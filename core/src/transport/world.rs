@@ -2,7 +2,7 @@
 
 use super::{Collision, Company, EventRule, Guide, Note, Technique, Turn, Turns, Vertex, Walk, WalkWeights};
 use crate::light::{Emitter, LobeParts};
-use crate::math::{Ray, Sampler};
+use crate::math::{Beside, Ray, Sampler};
 use crate::medium::LocalMedium;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
@@ -44,14 +44,28 @@ pub struct PathSettings {
     pub roulette_depth: u32,
 }
 
+impl PathSettings {
+    /// The number of real vertices from which on Russian roulette may end a path; `u32::MAX` for never.
+    #[must_use]
+    #[inline]
+    pub fn first_roulette(&self) -> u32 {
+        match self.absorption {
+            Absorption::Roulette => 0,
+            Absorption::Analogue | Absorption::Weighted => self.roulette_depth,
+        }
+    }
+}
+
 /// Steps of a path between two questions whether it is still wanted.
 const ASK_EVERY: u32 = 1024;
 
 /// The random numbers of one path, what it has cost, and who accompanies it.
 #[derive(Debug)]
 pub struct Trace<'a> {
-    /// Random numbers.
+    /// Random numbers of the walk.
     pub sampler: Sampler,
+    /// Random numbers of what is drawn beside the walk: the connection at hand.
+    pub connection: Sampler,
     /// Evaluations of the medium's coefficients.
     pub lookups: u64,
     /// Collisions at which the extinction exceeded the majorant.
@@ -65,7 +79,22 @@ impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
     pub fn new(sampler: Sampler, company: impl Into<Company<'a>>) -> Self {
-        Self { sampler, lookups: 0, exceeded: 0, company: company.into(), steps: 0, stopped: false }
+        let connection = sampler.beside_walk(Beside::Connection);
+        Self {
+            sampler,
+            connection,
+            lookups: 0,
+            exceeded: 0,
+            company: company.into(),
+            steps: 0,
+            stopped: false,
+        }
+    }
+
+    /// Begins something that is drawn beside the walk, by numbers of its own.
+    #[inline]
+    pub fn start_beside(&mut self, what: Beside) {
+        self.connection = self.sampler.beside_walk(what);
     }
 
     /// Tells a step to whoever looks on.
@@ -131,10 +160,10 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         (kelvin > 0.0).then(|| self.components.blackbody(kelvin) * Sampled::splat(emission.scale))
     }
 
-    /// Adds light to the estimate: hands back `value`, what `emitted` light is worth by the path, and tells of it. The other
-    /// technique that could have sampled the light would have done so with `other_density`.
+    /// Records a contribution to the estimate for the observer and returns it: `value` is `emitted` light weighted by the
+    /// path. The other technique that could have sampled the light would have done so with `other_density`.
     #[inline(always)]
-    pub fn credit(
+    pub fn record(
         &self,
         technique: Technique,
         (emitted, other_density): (C::Radiance, f32),
@@ -222,9 +251,14 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Turns { phase: &self.scene.phase, guide }
     }
 
-    /// Draws the direction that a path leaves a vertex in.
+    /// Samples the direction in which a path leaves a vertex, multiplies it into the weights and returns the next ray.
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, weights: &mut impl WalkWeights<N>, trace: &mut Trace<'_>) -> Ray {
+    pub fn sample_direction(
+        &self,
+        vertex: &Vertex,
+        weights: &mut impl WalkWeights<N>,
+        trace: &mut Trace<'_>,
+    ) -> Ray {
         let turn = self.draw_turn(vertex, trace);
         weights.leave(&turn);
         Ray { origin: vertex.point(), direction: turn.direction }
@@ -241,9 +275,9 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         turn
     }
 
-    /// Whether a path goes on from its vertex number `vertices`: it has not reached the depth limit, it
-    /// can still contribute, it is still wanted.
-    pub fn goes_on(&self, vertices: u32, weights: &impl WalkWeights<N>, trace: &mut Trace<'_>) -> bool {
+    /// Whether a path continues beyond its vertex number `vertices`: it is within the depth limit, can still
+    /// contribute, and has not been cancelled.
+    pub fn within_depth(&self, vertices: u32, weights: &impl WalkWeights<N>, trace: &mut Trace<'_>) -> bool {
         let kept = *weights;
         trace.tell(move || Note::Vertex(kept.kept()));
         vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
@@ -257,7 +291,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         weights: &mut impl WalkWeights<N>,
         trace: &mut Trace<'_>,
     ) -> bool {
-        if vertices < self.settings.roulette_depth {
+        if vertices < self.settings.first_roulette() {
             return true;
         }
         let q = weights.throughput().clamp(0.05, 1.0);

@@ -178,7 +178,7 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 segmented(ui, "Techniques", &mut doc.heuristics.techniques, &[BALANCE, POWER, MAXIMUM]);
             });
         });
-        open_ui(ui, doc, Axis::Books, books_ui);
+        open_ui(ui, doc, Axis::Bookkeeping, books_ui);
         open_ui(ui, doc, Axis::Tracking, |ui, doc| {
             row(ui, "Tracking", "What spectral tracking draws events by", |ui, _| {
                 let options = [

@@ -6,8 +6,7 @@
 //! grids of albedo, depth limits, analogue absorption, roulette.
 
 use super::super::{Answer, Case, CheckError, Family, fixture};
-use super::{ASIDE, CONNECTING, SEVERAL_COMPONENTS};
-use crate::estimator::REGISTRY;
+use super::{ASIDE, CONNECTING, SEVERAL_COMPONENTS, SPLITTING, SPLITTING_FAMILIES};
 use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
@@ -171,19 +170,19 @@ fn cases() -> Result<Vec<Case>, CheckError> {
                 d.estimator.distances = DistanceSampling::Decomposition;
                 d.medium.majorant.resolution = Some(32);
             })
-            .among(&REGISTRY[..4]),
+            .among(&SPLITTING),
         cloud
             .varied("agreement/cloud-weighted-delta", |d| {
                 d.estimator.distances = DistanceSampling::WeightedDelta;
             })
-            .among(&REGISTRY[..4]),
+            .among(&SPLITTING),
         inside
             .varied("agreement/inside-split", |d| {
                 d.estimator.distances = DistanceSampling::Decomposition;
                 d.estimator.absorption = Absorption::Analogue;
                 d.medium.majorant.shared = false;
             })
-            .among(&REGISTRY[1..4]),
+            .among(&SPLITTING_FAMILIES),
         plume.varied("agreement/plume-analogue-rgb", |d| {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.light_walk = LightWalk::Separate;
@@ -247,10 +246,10 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .among(&CONNECTING),
         plume
             .varied("agreement/plume-apart", |d| d.estimator.bookkeeping = Bookkeeping::ApartF64)
-            .among(&REGISTRY[1..4]),
+            .among(&SPLITTING_FAMILIES),
         plume
             .varied("agreement/plume-pairwise", |d| d.estimator.bookkeeping = Bookkeeping::Pairwise)
-            .among(&REGISTRY[1..4]),
+            .among(&SPLITTING_FAMILIES),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
         cloud.varied("agreement/cloud-guided-lattice", |d| {

@@ -160,7 +160,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     );
 
     // An OpenVDB file: the box reaches one voxel beyond the outermost values on every side.
-    let bytes: &'static [u8] = include_bytes!("../../../../tests/volumes/tiny_instance.vdb");
+    let bytes: &'static [u8] = include_bytes!("../../../../assets/volumes/tiny_instance.vdb");
     let voxels = volume::read_volume_bytes(bytes, "tiny.vdb", Some("density"), &Limits::default());
     let voxels = voxels
         .map_err(|e| CheckError::Reference { name: "interpolation/vdb".into(), reason: e.to_string() })?;

@@ -33,7 +33,7 @@ pub static FAMILIES: &[Family] = &[
 
 /// Estimators that connect to lights.
 static CONNECTING: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.unused(Axis::Lights).is_none()).copied().collect());
+    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.connects()).copied().collect());
 
 /// The same, and one that does not connect: for cases about phase functions and lights, on which the unidirectional
 /// estimators differ in nothing but the time that they need to tell.
@@ -41,21 +41,28 @@ static CONNECTING_AND_ONE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|e| e.id == "spectral-mis").chain(CONNECTING.iter()).copied().collect()
 });
 
-/// Those whose paths carry several components. Whoever carries one at a time is noisier by what colours the noise, and is
-/// left out of cases about what it has no part in: it would take most of their time.
+/// Those whose paths carry several components. An estimator that carries one at a time is noisier by the noise of colours,
+/// and is left out of cases about what it has no part in: it would take most of their time.
 static SEVERAL_COMPONENTS: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.id != "independent").copied().collect());
+
+/// Those that offer a choice of how distances are drawn.
+static SPLITTING: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.uses(Axis::Distances)).copied().collect());
+
+/// Those of them whose paths carry several components.
+static SPLITTING_FAMILIES: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| SPLITTING.iter().filter(|entry| entry.carries_family()).copied().collect());
 
 /// Walking alone, and all that there is: for cases about the medium, in which connecting alone takes long to tell.
 static WALKING_AND_ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|entry| ["spectral-mis", "uni-nee-mis"].contains(&entry.id)).copied().collect()
 });
 
-/// Those whose paths fly by the majorant of their hero: where extinctions differ a hundredfold, whoever flies by that of
-/// the densest component takes a hundred times as long to tell the same.
-static BY_HERO: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-    REGISTRY.iter().filter(|entry| entry.unused(Axis::Tracking).is_some()).copied().collect()
-});
+/// Those whose paths fly by the majorant of their hero: where extinctions differ a hundredfold, flights by that of the
+/// densest component take a hundred times as long to tell the same.
+static BY_HERO: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.hero_draws()).copied().collect());
 
 /// The cases of a usual look, or of a thorough one.
 ///

@@ -1,6 +1,6 @@
 //! Pictures that independent renderers have made of seven scenes.
 //!
-//! Their scenes, references and provenance stand in `tests/oracle`: block means of converged pictures in
+//! Their scenes, references and provenance stand in `assets/oracle`: block means of converged pictures in
 //! linear sRGB, with standard errors, and for S6 quadrature as well. S4 and S5 are one plume in RGB and in spectral mode. The others have
 //! the same coefficients at every wavelength, so their pictures hold for spectral mode too, in the colour of
 //! illuminant E instead of white. The reference of S5 was made with a table of the observer that is
@@ -37,9 +37,9 @@ macro_rules! oracle {
         Oracle {
             name: $name,
             file: $reference,
-            toml: include_str!(concat!("../../../../tests/oracle/", $name, "/scene.toml")),
-            reference: include_bytes!(concat!("../../../../tests/oracle/", $name, "/", $reference)),
-            stderr: include_bytes!(concat!("../../../../tests/oracle/", $name, "/stderr.npy")),
+            toml: include_str!(concat!("../../../../assets/oracle/", $name, "/scene.toml")),
+            reference: include_bytes!(concat!("../../../../assets/oracle/", $name, "/", $reference)),
+            stderr: include_bytes!(concat!("../../../../assets/oracle/", $name, "/stderr.npy")),
             side: $side,
             budget: $budget,
         }
@@ -58,9 +58,9 @@ static ORACLES: &[Oracle] = &[
 ];
 
 fn files() -> Library {
-    let cloud: &'static [u8] = include_bytes!("../../../../tests/oracle/S2/density.npy");
-    let plume: &'static [u8] = include_bytes!("../../../../tests/oracle/S4/density.npy");
-    let slab: &'static [u8] = include_bytes!("../../../../tests/oracle/S6/density.npy");
+    let cloud: &'static [u8] = include_bytes!("../../../../assets/oracle/S2/density.npy");
+    let plume: &'static [u8] = include_bytes!("../../../../assets/oracle/S4/density.npy");
+    let slab: &'static [u8] = include_bytes!("../../../../assets/oracle/S6/density.npy");
     Library::default()
         .with_volume("../S2/density.npy", cloud)
         .with_volume("../S4/density.npy", plume)

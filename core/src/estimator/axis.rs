@@ -1,0 +1,145 @@
+//! The choices that some estimators leave open and others do not.
+
+use crate::scene::{
+    Absorption, Bookkeeping, DistanceSampling, Fault, Heuristics, LightSampling, LightSelection, LightWalk,
+    Tracking,
+};
+use crate::transmittance::TransmittanceKind;
+use crate::transport::PathSettings;
+
+/// A choice that some estimators leave open and others do not. What every estimator uses (mode, sampler, directions, depth,
+/// roulette) is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// [`crate::scene::Absorption`].
+    Absorption,
+    /// [`crate::scene::DistanceSampling`].
+    Distances,
+    /// The heuristic among components.
+    Components,
+    /// The heuristic between techniques.
+    Techniques,
+    /// [`crate::scene::Bookkeeping`].
+    Bookkeeping,
+    /// [`crate::scene::Tracking`].
+    Tracking,
+    /// [`crate::scene::LightSelection`].
+    Lights,
+    /// [`crate::scene::LightSampling`].
+    LightSampling,
+    /// [`TransmittanceKind`] of connections.
+    Transmittance,
+    /// [`crate::scene::LightWalk`].
+    LightWalk,
+    /// [`crate::scene::Fault`].
+    Fault,
+}
+
+impl Axis {
+    /// Every axis.
+    pub const ALL: [Self; 11] = [
+        Self::Absorption,
+        Self::Distances,
+        Self::Components,
+        Self::Techniques,
+        Self::Bookkeeping,
+        Self::Tracking,
+        Self::Lights,
+        Self::LightSampling,
+        Self::Transmittance,
+        Self::LightWalk,
+        Self::Fault,
+    ];
+
+    /// Why the choice changes nothing about an estimator that does not use it.
+    #[must_use]
+    pub fn why_unused(self) -> &'static str {
+        match self {
+            Self::Absorption => "this estimator always weights scattering by the albedo",
+            Self::Distances => "this estimator always tracks by delta",
+            Self::Components => "this estimator forms no path densities of several components to combine",
+            Self::Techniques => "this estimator has no choice of heuristic between techniques",
+            Self::Bookkeeping => "only Uni+NEE MIS offers other forms of its weights",
+            Self::Tracking => "only spectral tracking draws events for all components at once",
+            Self::Lights | Self::LightSampling => "this estimator connects to no light",
+            Self::Transmittance => {
+                "this estimator makes no connections, or weighs them by the density of every null collision, which \
+                 other estimates do not have"
+            }
+            Self::LightWalk => "only Uni+NEE MIS can meet lights by a walk of its own",
+            Self::Fault => "faults are planted in Uni+NEE MIS only",
+        }
+    }
+
+    const fn bit(self) -> u32 {
+        1 << self as u32
+    }
+}
+
+/// Some axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AxisSet(u32);
+
+impl AxisSet {
+    /// The axes of a list.
+    #[must_use]
+    pub const fn of(axes: &[Axis]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < axes.len() {
+            bits |= axes[i].bit();
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether an axis is among them.
+    #[must_use]
+    pub const fn contains(self, axis: Axis) -> bool {
+        self.0 & axis.bit() != 0
+    }
+}
+
+impl PathSettings {
+    /// The same settings with every axis that is not in `used` at its default: what is not used cannot change an image.
+    #[must_use]
+    #[inline]
+    pub fn limited_to(mut self, used: AxisSet) -> Self {
+        let default = Heuristics::default();
+        let unused = |axis| !used.contains(axis);
+        if unused(Axis::Absorption) {
+            self.absorption = Absorption::default();
+        }
+        if unused(Axis::Distances) {
+            self.distances = DistanceSampling::default();
+        }
+        if unused(Axis::Components) {
+            self.heuristics.components = default.components;
+        }
+        if unused(Axis::Techniques) {
+            self.heuristics.techniques = default.techniques;
+        }
+        if unused(Axis::Bookkeeping) {
+            self.bookkeeping = Bookkeeping::default();
+        }
+        if unused(Axis::Tracking) {
+            self.tracking = Tracking::default();
+        }
+        if unused(Axis::Lights) {
+            self.lights = LightSelection::default();
+        }
+        if unused(Axis::LightSampling) {
+            self.light_sampling = LightSampling::default();
+        }
+        if unused(Axis::Transmittance) {
+            self.transmittance = TransmittanceKind::ALONG_THE_PATH;
+        }
+        if unused(Axis::LightWalk) {
+            self.light_walk = LightWalk::default();
+        }
+        if unused(Axis::Fault) {
+            self.fault = Fault::default();
+        }
+        self
+    }
+}
