@@ -8,6 +8,7 @@
 )]
 
 pub mod chi2;
+pub mod fixture;
 pub mod render;
 pub mod session;
 pub mod volumes;

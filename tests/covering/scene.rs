@@ -1,0 +1,177 @@
+//! The scenes of the covering array: a cube of one of four grids, and what its image should be.
+
+use super::truth::{self, Field};
+use majorant_core::check::{Answer, Layout};
+use majorant_core::io::{Library, scene_file};
+use majorant_core::scene::SceneDoc;
+use majorant_tests::fixture::npy;
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+/// What is known of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Known {
+    /// Absorption alone: what comes through.
+    Transmittance,
+    /// Single scattering, by quadrature.
+    Single,
+    /// Radiance 1 from everywhere, albedo 1.
+    Furnace,
+}
+
+/// Where the density comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Density {
+    Uniform,
+    Constant,
+    Rough,
+    Colours,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    pub known: Known,
+    pub density: Density,
+    /// Whether extinction and albedo depend on the wavelength, or channel.
+    pub chromatic: bool,
+    pub spectral: bool,
+}
+
+const EXTINCTION_NM: [(f64, f64); 3] = [(430.0, 1.2), (540.0, 0.5), (620.0, 0.9)];
+const ALBEDO_NM: [(f64, f64); 2] = [(430.0, 0.5), (620.0, 0.9)];
+const EXTINCTION_RGB: [f64; 3] = [0.9, 0.5, 1.2];
+const ALBEDO_RGB: [f64; 3] = [0.9, 0.7, 0.5];
+const EXTINCTION_GREY: f64 = 0.9;
+const ALBEDO_GREY: f64 = 0.7;
+
+impl Place {
+    /// Whether the renderer may carry one component for all.
+    pub fn achromatic(&self) -> bool {
+        !self.chromatic && self.density != Density::Colours
+    }
+
+    pub fn toml(&self) -> String {
+        let (extinction, albedo) = match (self.chromatic, self.spectral) {
+            (false, _) => (EXTINCTION_GREY.to_string(), ALBEDO_GREY.to_string()),
+            (true, false) => {
+                (format!("{{ rgb = {EXTINCTION_RGB:?} }}"), format!("{{ rgb = {ALBEDO_RGB:?} }}"))
+            }
+            (true, true) => (points(&EXTINCTION_NM), points(&ALBEDO_NM)),
+        };
+        let density = match self.density {
+            Density::Uniform => "density = { kind = \"uniform\" }",
+            Density::Constant => {
+                "density = { kind = \"grid\", file = \"constant.npy\" }\nplacement = { fit = 1.0 }"
+            }
+            Density::Rough => {
+                "density = { kind = \"grid\", file = \"rough.npy\" }\nplacement = { fit = 1.0 }"
+            }
+            Density::Colours => {
+                "density = { kind = \"rgb-grid\", file = \"colours.npy\" }\nplacement = { fit = 1.0 }"
+            }
+        };
+        let albedo = match self.known {
+            Known::Transmittance => "0.0".into(),
+            Known::Single => albedo,
+            Known::Furnace => "1.0".into(),
+        };
+        let (sky, lamp, seen, depth) = match self.known {
+            Known::Furnace => (1.0, 1.0, true, ""),
+            Known::Transmittance => (1.0, 1.0, true, ""),
+            Known::Single => (truth::SKY_RADIANCE, truth::LAMP_RADIANCE, false, "max_depth = 2"),
+        };
+        format!(
+            "majorant = 1
+            [camera]
+            origin = [0.0, 0.0, 60.0]
+            target = [0.0, 0.0, 0.0]
+            fov_deg = 0.01
+            [film]
+            width = 2
+            height = 2
+            [medium]
+            extinction = {extinction}
+            albedo = {albedo}
+            phase = {{ kind = \"henyey-greenstein\", g = {} }}
+            {density}
+            [[lights]]
+            kind = \"environment\"
+            scale = {sky:?}
+            visible = {seen}
+            [[lights]]
+            kind = \"sphere\"
+            center = {:?}
+            radius = {:?}
+            scale = {lamp:?}
+            [estimator]
+            {depth}",
+            truth::ASYMMETRY,
+            truth::LAMP,
+            truth::LAMP_RADIUS,
+        )
+    }
+
+    pub fn document(&self) -> SceneDoc {
+        scene_file::parse(&self.toml(), "covering").unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    pub fn answer(&self) -> Answer {
+        static KNOWN: Mutex<BTreeMap<Place, [f64; 3]>> = Mutex::new(BTreeMap::new());
+        let mut known = KNOWN.lock().unwrap();
+        let colour = *known.entry(*self).or_insert_with(|| self.colour());
+        Answer::uniform(colour, Layout::WHOLE).within(truth::QUADRATURE)
+    }
+
+    fn colour(&self) -> [f64; 3] {
+        let field: &Field = match self.density {
+            Density::Uniform | Density::Constant => &truth::CONSTANT,
+            Density::Rough => &truth::ROUGH,
+            Density::Colours => &truth::COLOURS,
+        };
+        let brings = |sigma: [f64; 3], albedo: f64| match self.known {
+            Known::Furnace => 1.0,
+            Known::Transmittance => field.transmittance(sigma),
+            Known::Single => albedo * field.single(sigma),
+        };
+        if self.spectral {
+            return truth::film(|lambda| {
+                let at = f64::from(lambda);
+                let (extinction, albedo) = if self.chromatic {
+                    (truth::by_points(&EXTINCTION_NM, at), truth::by_points(&ALBEDO_NM, at))
+                } else {
+                    (EXTINCTION_GREY, ALBEDO_GREY)
+                };
+                let sigma = match self.density {
+                    Density::Colours => truth::basis(lambda),
+                    _ => [extinction, 0.0, 0.0],
+                };
+                brings(sigma, albedo)
+            });
+        }
+        std::array::from_fn(|c| {
+            let (extinction, albedo) = if self.chromatic {
+                (EXTINCTION_RGB[c], ALBEDO_RGB[c])
+            } else {
+                (EXTINCTION_GREY, ALBEDO_GREY)
+            };
+            let sigma = match self.density {
+                Density::Colours => std::array::from_fn(|i| if i == c { 1.0 } else { 0.0 }),
+                _ => [extinction, 0.0, 0.0],
+            };
+            brings(sigma, albedo)
+        })
+    }
+}
+
+fn points(points: &[(f64, f64)]) -> String {
+    let points: Vec<_> = points.iter().map(|(l, v)| format!("{l}:{v}")).collect();
+    format!("\"{}\"", points.join(", "))
+}
+
+pub fn files() -> Library {
+    let n = truth::SIZE;
+    Library::default()
+        .with_volume("constant.npy", npy([n; 3], 1, &vec![1.0; n.pow(3)]))
+        .with_volume("rough.npy", npy([n; 3], 1, &truth::rough_values(1)))
+        .with_volume("colours.npy", npy([n; 3], 3, &truth::rough_values(3)))
+}

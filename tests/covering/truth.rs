@@ -1,0 +1,213 @@
+//! Answers of the covering array's scenes: transmittance and single scattering by quadrature, and a furnace.
+
+use glam::DVec3;
+use majorant_core::spectrum::{Components, Sampled, Wavelengths};
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// Values per axis of every grid.
+pub const SIZE: usize = 5;
+/// Grids hold multiples of this, the largest of every channel 255 of them: each precision holds them exactly.
+const STEP: f32 = 1.0 / 128.0;
+
+/// Where the lamp stands.
+pub const LAMP: [f64; 3] = [0.9, 1.1, 0.2];
+pub const LAMP_RADIUS: f64 = 0.3;
+pub const LAMP_RADIANCE: f64 = 4.0;
+pub const SKY_RADIANCE: f64 = 0.6;
+pub const ASYMMETRY: f64 = 0.4;
+
+/// Quadrature is good to this: rasters one and a half times as fine differ by at most 1.5·10⁻⁴.
+pub const QUADRATURE: f64 = 3e-4;
+
+/// Without any pattern, from 1/4 to 255/128: a control is not zero in any cell.
+pub fn rough_values(channels: usize) -> Vec<f32> {
+    let count = SIZE.pow(3) * channels;
+    let mut values: Vec<f32> = (0..count)
+        .map(|i| {
+            let x =
+                ((i + 1) as f64 * 0.381_966_011_250_105).fract() * ((i + 1) as f64 * 0.754_877_666).fract();
+            (32.0 + x.sqrt() * 223.0).round() as f32 * STEP
+        })
+        .collect();
+    for value in values.iter_mut().take(channels) {
+        *value = 255.0 * STEP;
+    }
+    values
+}
+
+/// What a ray along the axis meets: contributions with their densities and optical depths, per channel of the grid.
+struct Sample {
+    weight: f64,
+    density: [f64; 3],
+    depth: [f64; 3],
+}
+
+/// A medium's density over the unit cube.
+pub struct Field {
+    single: Vec<Sample>,
+    /// Optical depth through the cube along the axis.
+    through: [f64; 3],
+}
+
+fn integrate(cells: u32, mut f: impl FnMut(f64)) {
+    let off = 0.5 / 3f64.sqrt();
+    for i in 0..cells {
+        for side in [-off, off] {
+            f((f64::from(i) + 0.5 + side) / f64::from(cells));
+        }
+    }
+}
+
+/// Directions within a cap, with their solid angles.
+fn cap(axis: DVec3, height: f64, cells: u32) -> Vec<(DVec3, f64)> {
+    let (u, v) = axis.any_orthonormal_pair();
+    let mut directions = Vec::new();
+    let weight = 2.0 * PI * height / f64::from(2 * cells) / f64::from(4 * cells);
+    integrate(cells, |a| {
+        let cos = 1.0 - height * a;
+        let sin = (1.0 - cos * cos).max(0.0).sqrt();
+        integrate(2 * cells, |b| {
+            let (s, c) = (2.0 * PI * b).sin_cos();
+            directions.push((axis * cos + (u * c + v * s) * sin, weight));
+        });
+    });
+    directions
+}
+
+fn to_face(point: DVec3, direction: DVec3) -> f64 {
+    (0..3)
+        .map(|axis| {
+            let d = direction[axis];
+            if d == 0.0 { f64::INFINITY } else { (0.5 * d.signum() - point[axis]) / d }
+        })
+        .fold(f64::INFINITY, f64::min)
+        .max(0.0)
+}
+
+fn phase(cosine: f64) -> f64 {
+    let g = ASYMMETRY;
+    (1.0 - g * g) / (4.0 * PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5))
+}
+
+impl Field {
+    fn new(density: impl Fn(DVec3) -> [f64; 3]) -> Self {
+        let column = |from: DVec3, direction: DVec3, length: f64, cells: u32| {
+            let mut sum = [0.0; 3];
+            integrate(cells, |t| {
+                let here = density(from + direction * (length * t));
+                for (s, d) in sum.iter_mut().zip(here) {
+                    *s += d * length / f64::from(2 * cells);
+                }
+            });
+            sum
+        };
+        let face = DVec3::new(0.0, 0.0, 0.5);
+        let along = 40;
+        let sky = cap(DVec3::Y, 2.0, 12);
+        let mut single = Vec::new();
+        integrate(along, |s| {
+            let point = face - DVec3::Z * s;
+            let here = density(point);
+            let before = column(face, -DVec3::Z, s, 24);
+            let to_lamp = DVec3::from(LAMP) - point;
+            let height = 1.0 - (1.0 - (LAMP_RADIUS / to_lamp.length()).powi(2)).sqrt();
+            let lamp = cap(to_lamp.normalize(), height, 5);
+            // The lamp hides the sky behind it.
+            let lights = [(&sky, SKY_RADIANCE), (&lamp, LAMP_RADIANCE - SKY_RADIANCE)];
+            for (directions, radiance) in lights {
+                for (omega, solid) in directions {
+                    let after = column(point, *omega, to_face(point, *omega), 12);
+                    single.push(Sample {
+                        weight: radiance * solid * phase(-omega.z) / f64::from(2 * along),
+                        density: here,
+                        depth: std::array::from_fn(|c| before[c] + after[c]),
+                    });
+                }
+            }
+        });
+        Self { single, through: column(face, -DVec3::Z, 1.0, 200) }
+    }
+
+    /// Single scattering of albedo 1, where the extinction is the densities weighted by `sigma`.
+    pub fn single(&self, sigma: [f64; 3]) -> f64 {
+        let dot = |a: &[f64; 3]| a[0] * sigma[0] + a[1] * sigma[1] + a[2] * sigma[2];
+        self.single.iter().map(|s| s.weight * dot(&s.density) * (-dot(&s.depth)).exp()).sum()
+    }
+
+    /// What comes through the cube.
+    pub fn transmittance(&self, sigma: [f64; 3]) -> f64 {
+        let t = self.through;
+        (-(t[0] * sigma[0] + t[1] * sigma[1] + t[2] * sigma[2])).exp()
+    }
+}
+
+/// Density 1 everywhere.
+pub static CONSTANT: LazyLock<Field> = LazyLock::new(|| Field::new(|_| [1.0, 0.0, 0.0]));
+/// The rough grid.
+pub static ROUGH: LazyLock<Field> = LazyLock::new(|| {
+    let values = rough_values(1);
+    Field::new(|p| [trilinear(&values, 1, p)[0], 0.0, 0.0])
+});
+/// The grid of three channels.
+pub static COLOURS: LazyLock<Field> = LazyLock::new(|| {
+    let values = rough_values(3);
+    Field::new(|p| trilinear(&values, 3, p))
+});
+
+/// Values at cell centres over the unit cube about the origin, held beyond the outermost.
+fn trilinear(values: &[f32], channels: usize, p: DVec3) -> [f64; 3] {
+    let n = SIZE as f64;
+    let index = (p + 0.5) * n - 0.5;
+    let floor = index.floor();
+    let f = index - floor;
+    let mut sum = [0.0; 3];
+    for corner in 0..8usize {
+        let mut weight = 1.0;
+        let mut at = [0usize; 3];
+        for axis in 0..3 {
+            let up = corner >> axis & 1;
+            weight *= if up == 1 { f[axis] } else { 1.0 - f[axis] };
+            at[axis] = (floor[axis] as i64 + up as i64).clamp(0, SIZE as i64 - 1) as usize;
+        }
+        let place = (at[0] + SIZE * (at[1] + SIZE * at[2])) * channels;
+        for c in 0..channels {
+            sum[c] += weight * f64::from(values[place + c]);
+        }
+    }
+    sum
+}
+
+/// What the film shows of radiance by wavelength, in linear sRGB.
+pub fn film(radiance: impl Fn(f32) -> f64) -> [f64; 3] {
+    let step = 2.5f32;
+    let mut sum = [0.0; 3];
+    for i in 0..=188u8 {
+        let lambda = 360.0 + step * f32::from(i);
+        let at = Wavelengths::<1> { lambda_nm: [lambda], density_per_nm: [1.0] };
+        let response = at.to_film(Sampled::ONE);
+        let end = if i == 0 || i == 188 { 0.5 } else { 1.0 };
+        let value = radiance(lambda) * f64::from(step) * end;
+        for c in 0..3 {
+            sum[c] += f64::from(response[c]) * value;
+        }
+    }
+    sum
+}
+
+/// What 1 of red, green and blue is at a wavelength.
+pub fn basis(lambda: f32) -> [f64; 3] {
+    let at = Wavelengths::<1> { lambda_nm: [lambda], density_per_nm: [1.0] };
+    glam::Vec3::AXES.map(|axis| f64::from(at.upsample(axis).hero()))
+}
+
+/// A spectrum given by points, linear between them and held beyond.
+pub fn by_points(points: &[(f64, f64)], lambda: f64) -> f64 {
+    let after = points.partition_point(|p| p.0 <= lambda);
+    match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (lambda - a.0) / (b.0 - a.0),
+        (Some(end), None) => end.1,
+        (None, Some(end)) => end.1,
+        (None, None) => 0.0,
+    }
+}

@@ -1,0 +1,606 @@
+//! One path, all its makers: whichever hero and technique makes a path, what they add sums to what the path is worth.
+//!
+//! ```text
+//!   (1/C) Σ_{h,t} P_{h,t} v_{h,t,j} = f_j
+//! ```
+//!
+//! P is the density with which hero h and technique t make the path: computed here in double precision from what is
+//! *drawn* (free flights, the part of the medium, the event at a number, directions). v is what the estimator adds for it, from
+//! the walk's weights for the walk's term and the connection's for the connection's. f is the integrand, from the
+//! coefficients. With the balance heuristic this says that the weights of one path sum to one: a mistake on one side only,
+//! which changes an image's mean by a per cent, is off by as much here, without noise.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
+
+use glam::Vec3;
+use majorant_core::estimator::Settings;
+use majorant_core::io::{Library, scene_file};
+use majorant_core::math::{BoxRay, Ray, Sampler};
+use majorant_core::medium::{AnyMedium, LocalMedium, MajorantSegment, Medium};
+use majorant_core::scene::{
+    Absorption, DirectionSampling, DistanceSampling, Heuristic, Heuristics, LightSampling, LightSelection,
+    Scene, SceneDoc, build,
+};
+use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
+use majorant_core::transport::{
+    Collision, EquiangularWeights, Event, EventRule, LightDensities, Part, Passage, PathWeights, Place,
+    Reached, Turn, Vertex, WalkWeights, Weights, WeightsApart, WeightsPairwise, World,
+};
+use majorant_tests::fixture::npy;
+
+/// What single precision leaves of a product of a dozen factors.
+const ROUNDING: f64 = 2e-4;
+
+/// A collision on a ray: where, and what happens there.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    t: f32,
+    event: Event,
+    /// Whether it belongs to the control, where the medium is taken as two parts.
+    control: bool,
+}
+
+/// A stretch of a path, up to a scattering vertex or to a light.
+#[derive(Clone, Debug)]
+struct Stretch {
+    ray: Ray,
+    /// In order; all null but the last one of a stretch that scatters.
+    steps: Vec<Step>,
+    /// Where a stretch to a light ends.
+    end: f32,
+}
+
+/// Optical depth of the majorants from `from` to `to` along a ray, per component.
+fn majorant_depth<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    ray: &Ray,
+    (from, to): (f32, f32),
+) -> [f64; N] {
+    let mut depth = [0.0; N];
+    let Some((t0, inside)) = BoxRay::enter(ray, &world.scene.medium_from_world, f32::INFINITY) else {
+        return depth;
+    };
+    for segment in world.medium.segments(&inside) {
+        let a = (t0 + segment.t0).max(from);
+        let b = (t0 + segment.t1).min(to);
+        for (d, m) in depth.iter_mut().zip(segment.majorant.0) {
+            *d += f64::from(m) * f64::from((b - a).max(0.0));
+        }
+    }
+    depth
+}
+
+/// The place of a collision on a ray, with the segment that it lies in; `None` in empty space.
+fn segment_at<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    ray: &Ray,
+    t: f32,
+) -> Option<(Vec3, Vec3, MajorantSegment<N>)> {
+    let (t0, inside) = BoxRay::enter(ray, &world.scene.medium_from_world, f32::INFINITY)?;
+    let local = t - t0;
+    let segment = world.medium.segments(&inside).find(|s| s.t0 <= local && local < s.t1)?;
+    Some((ray.at(t), inside.at(local), segment))
+}
+
+/// The probability with which an event is drawn at a collision, found from the draw itself.
+fn probability<const N: usize>(collision: &Collision<N>, event: Event) -> f64 {
+    let order = |e: Event| match e {
+        Event::Absorption => 0,
+        Event::Scattering => 1,
+        Event::Null => 2,
+    };
+    let total = collision.tentative.hero();
+    let at = |u: f64| order(collision.event_at((u * f64::from(total)) as f32));
+    // Numbers below which the event comes no later than `last`.
+    let up_to = |last: i32| {
+        if at(1.0 - 1e-7) <= last {
+            return 1.0;
+        }
+        let (mut low, mut high) = (0.0f64, 1.0);
+        for _ in 0..40 {
+            let middle = 0.5 * (low + high);
+            if at(middle) <= last { low = middle } else { high = middle }
+        }
+        if low == 0.0 { 0.0 } else { high }
+    };
+    let k = order(event);
+    up_to(k) - up_to(k - 1)
+}
+
+/// A density, or a value, by component; products are formed here.
+struct Term<const N: usize> {
+    /// Density of the maker so far.
+    p: f64,
+    /// The integrand.
+    f: [f64; N],
+}
+
+impl<const N: usize> Term<N> {
+    fn scale(&mut self, by: [f64; N]) {
+        for (f, by) in self.f.iter_mut().zip(by) {
+            *f *= by;
+        }
+    }
+}
+
+/// Follows a stretch as the walk makes it: P by what is drawn, f by the coefficients, and the estimator's weights.
+/// `None` if this hero cannot make it.
+fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    stretch: &Stretch,
+    term: &mut Term<N>,
+    weights: &mut W,
+) -> Option<()> {
+    let rule = EventRule::from(&world.settings);
+    let mut t = 0.0;
+    for step in &stretch.steps {
+        pass(world, &stretch.ray, (t, step.t), term, weights);
+        t = step.t;
+        let (point, inside, segment) = segment_at(world, &stretch.ray, t)?;
+        let place = Place { point, inside, segment: &segment };
+        let (part, p_part) = match place.control(&world.medium, rule) {
+            None => (Part::Whole, 1.0),
+            Some((c, albedo)) => {
+                let share = f64::from(c.hero()) / f64::from(segment.majorant.hero());
+                if step.control {
+                    (Part::Control(c, albedo), share)
+                } else {
+                    (Part::Rest(c, albedo), 1.0 - share)
+                }
+            }
+        };
+        let collision = place.collide(&world.medium, rule, part);
+        term.p *= f64::from(segment.majorant.hero()) * p_part * probability(&collision, step.event);
+        let all = world.medium.coefficients(inside, &segment);
+        let of = |s: Sampled<N>| s.0.map(f64::from);
+        let (absorbed, scattered, majorant) = (of(all.absorption), of(all.scattering), of(segment.majorant));
+        match step.event {
+            Event::Null => {
+                term.scale(std::array::from_fn(|j| majorant[j] - absorbed[j] - scattered[j]));
+                if term.p > 0.0 {
+                    weights.null(&collision);
+                }
+            }
+            Event::Scattering => {
+                let share = match part {
+                    Part::Whole => scattered,
+                    Part::Control(c, albedo) => of(c * albedo),
+                    Part::Rest(c, albedo) => {
+                        let control = of(c * albedo);
+                        std::array::from_fn(|j| scattered[j] - control[j])
+                    }
+                };
+                term.scale(share);
+                if term.p > 0.0 {
+                    weights.scatter(&collision);
+                }
+            }
+            Event::Absorption => unreachable!(),
+        }
+        if term.p <= 0.0 {
+            return None;
+        }
+    }
+    if stretch.steps.last().is_none_or(|s| s.event == Event::Null) {
+        pass(world, &stretch.ray, (t, stretch.end), term, weights);
+    }
+    Some(())
+}
+
+fn pass<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    ray: &Ray,
+    between: (f32, f32),
+    term: &mut Term<N>,
+    weights: &mut W,
+) {
+    let depth = majorant_depth(world, ray, between);
+    term.p *= (-depth[0]).exp();
+    term.scale(depth.map(|d| (-d).exp()));
+    weights.pass(Sampled(depth.map(|d| d as f32)));
+}
+
+/// Follows null collisions as a connection makes them: every tentative collision is taken as null.
+fn by_ratio<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, L, C, N>,
+    (ray, steps, end): (&Ray, &[Step], f32),
+    term: &mut Term<N>,
+    weights: &mut W,
+) -> Option<()> {
+    let mut t = 0.0;
+    for step in steps {
+        pass(world, ray, (t, step.t), term, weights);
+        t = step.t;
+        let (point, inside, segment) = segment_at(world, ray, t)?;
+        let all = world.medium.coefficients(inside, &segment);
+        term.p *= f64::from(segment.majorant.hero());
+        term.scale(std::array::from_fn(|j| {
+            f64::from(segment.majorant[j]) - f64::from(all.absorption[j]) - f64::from(all.scattering[j])
+        }));
+        weights.null_by_ratio(&Collision::new(point, all, EventRule::from(&world.settings)));
+    }
+    pass(world, ray, (t, end), term, weights);
+    Some(())
+}
+
+fn turn<const N: usize, W: WalkWeights<N>>(turn: &Turn, term: &mut Term<N>, weights: &mut W) {
+    term.p *= f64::from(turn.density);
+    term.scale([f64::from(turn.value); N]);
+    weights.leave(turn);
+}
+
+/// What all makers add for a path, over f, per component in the order of hero 0.
+struct Sums<const N: usize> {
+    sums: [f64; N],
+    f: [f64; N],
+}
+
+impl<const N: usize> Sums<N> {
+    fn new() -> Self {
+        Self { sums: [0.0; N], f: [f64::NAN; N] }
+    }
+
+    fn add(&mut self, hero: usize, term: &Term<N>, value: Sampled<N>) {
+        for j in 0..N {
+            // Component j of hero 0 is component j − hero of this one.
+            let own = (j + N - hero) % N;
+            self.sums[j] += term.p * f64::from(value[own]) / N as f64;
+            self.f[j] = term.f[own];
+        }
+    }
+
+    /// A path that no hero can begin with has no makers, and nothing to hold.
+    fn assert(&self, what: &str) {
+        if self.f.iter().any(|f| f.is_nan()) {
+            return;
+        }
+        let largest = self.f.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        for (sum, f) in self.sums.iter().zip(self.f) {
+            assert!(
+                (sum - f).abs() <= ROUNDING * (f.abs() + 1e-2 * largest),
+                "{what}: {:?} for {:?}",
+                self.sums,
+                self.f
+            );
+        }
+    }
+}
+
+/// A path to a light at the end of its last stretch.
+struct Path {
+    stretches: Vec<Stretch>,
+    light: usize,
+    u: f32,
+}
+
+struct Setup<'a, M> {
+    scene: &'a Scene,
+    medium: &'a M,
+    settings: Settings,
+}
+
+impl<M: Medium> Setup<'_, M> {
+    /// The world as hero number `hero` of the path's components sees it.
+    fn world<C: Components<N>, const N: usize>(
+        &self,
+        path: &Path,
+        hero: usize,
+    ) -> World<'_, M::Local<'_, N>, C, N> {
+        let u = (path.u + hero as f32 / N as f32).fract();
+        let components = C::sample(u, WavelengthSampling::Sensor);
+        World {
+            scene: self.scene,
+            medium: self.medium.local(&components),
+            components,
+            settings: self.settings.path,
+        }
+    }
+
+    /// Unidirectional sampling alone, next-event estimation alone, and both.
+    fn two_techniques<W: Weights<N>, C: Components<N>, const N: usize>(&self, path: &Path, what: &str) {
+        let (mut uni, mut nee, mut both) = (Sums::<N>::new(), Sums::<N>::new(), Sums::<N>::new());
+        let heuristics = self.settings.path.heuristics;
+        for hero in 0..N {
+            let world = self.world::<C, N>(path, hero);
+            let mut term = Term { p: 1.0, f: [1.0; N] };
+            let mut weights = W::starting(&world.settings);
+            let (last, before) = path.stretches.split_last().unwrap();
+            let mut vertex = None;
+            let mut possible = true;
+            for (i, stretch) in before.iter().enumerate() {
+                possible = possible && walk(&world, stretch, &mut term, &mut weights).is_some();
+                let point = stretch.ray.at(stretch.steps.last().unwrap().t);
+                let here = world.scattering_vertex(point, &stretch.ray);
+                if possible && i + 1 < before.len() {
+                    let towards = world.turns().towards(&here, path.stretches[i + 1].ray.direction);
+                    turn(&towards, &mut term, &mut weights);
+                }
+                vertex = Some(here);
+            }
+            // A path that one hero cannot begin with is made by the others alone.
+            if !possible {
+                continue;
+            }
+            let vertex: Vertex = vertex.unwrap();
+            let towards = world.turns().towards(&vertex, last.ray.direction);
+            let light = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
+            let after = (&last.ray, last.steps.as_slice(), last.end);
+
+            let mut link_term = Term { p: term.p * f64::from(light), f: term.f };
+            link_term.scale([f64::from(towards.value); N]);
+            let mut link = weights.connect(&towards, light);
+            by_ratio(&world, after, &mut link_term, &mut link).unwrap();
+            nee.add(hero, &link_term, link.connected_only(Sampled::ONE, heuristics));
+            both.add(hero, &link_term, link.connected_combined(Sampled::ONE, heuristics));
+
+            turn(&towards, &mut term, &mut weights);
+            if walk(&world, last, &mut term, &mut weights).is_some() {
+                uni.add(hero, &term, weights.unidirectional(Sampled::ONE, heuristics));
+                both.add(hero, &term, weights.combined(Sampled::ONE, light, heuristics));
+            }
+        }
+        for (sums, name) in [(nee, "next event"), (both, "both")] {
+            sums.assert(&format!("{what}, {name}"));
+        }
+        // Without a family of heroes a component whose own hero cannot make the path goes without.
+        if heuristics.components == Heuristic::Balance {
+            uni.assert(&format!("{what}, unidirectional"));
+        }
+    }
+
+    /// The same with a third technique, which draws the last vertex by angle.
+    fn three_techniques<C: Components<N>, const N: usize>(&self, path: &Path, what: &str) {
+        let mut all = Sums::<N>::new();
+        let heuristics = self.settings.path.heuristics;
+        for hero in 0..N {
+            let world = self.world::<C, N>(path, hero);
+            let mut term = Term { p: 1.0, f: [1.0; N] };
+            let mut weights = EquiangularWeights::<N>::starting(&world.settings);
+            let (last, before) = path.stretches.split_last().unwrap();
+            let (scattering, before) = before.split_last().unwrap();
+            let mut possible = true;
+            for (i, stretch) in before.iter().enumerate() {
+                possible = possible && walk(&world, stretch, &mut term, &mut weights).is_some();
+                let point = stretch.ray.at(stretch.steps.last().unwrap().t);
+                let here = world.scattering_vertex(point, &stretch.ray);
+                if possible {
+                    turn(
+                        &world.turns().towards(&here, path.stretches[i + 1].ray.direction),
+                        &mut term,
+                        &mut weights,
+                    );
+                }
+            }
+            if !possible {
+                continue;
+            }
+            let passage = Passage::through(self.scene, &scattering.ray, f32::INFINITY);
+            let step = scattering.steps.last().unwrap();
+            let point = scattering.ray.at(step.t);
+            let vertex = world.scattering_vertex(point, &scattering.ray);
+            let towards = world.turns().towards(&vertex, last.ray.direction);
+            let nee = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
+            let reached = Reached::through(passage, point);
+            let light: LightDensities = reached.light_densities(&world, path.light, point, nee);
+            let after = (&last.ray, last.steps.as_slice(), last.end);
+
+            // By angle.
+            if let Some(pivot) = self.scene.lights[path.light].center() {
+                let nulls = &scattering.steps[..scattering.steps.len() - 1];
+                let mut term = Term { p: term.p, f: term.f };
+                let mut link = weights;
+                by_ratio(&world, (&scattering.ray, nulls, step.t), &mut term, &mut link).unwrap();
+                let choice =
+                    |at| self.scene.light_choice.probability(path.light, at, self.settings.path.lights);
+                let by_angle = passage.unwrap().density(pivot, step.t) * choice(scattering.ray.origin);
+                let (_, inside, segment) = segment_at(&world, &scattering.ray, step.t).unwrap();
+                let place = Place { point, inside, segment: &segment };
+                let collision = place.collide(&world.medium, EventRule::from(&world.settings), Part::Whole);
+                link.scatter_by_angle(&collision, by_angle);
+                let aim = nee / choice(point);
+                let densities = LightDensities { nee, eq: aim };
+                let mut link = link.connect_by_angle(&towards, densities);
+                term.p *= f64::from(by_angle) * f64::from(aim);
+                term.scale(collision.coefficients.scattering.0.map(f64::from));
+                term.scale([f64::from(towards.value); N]);
+                by_ratio(&world, after, &mut term, &mut link).unwrap();
+                all.add(hero, &term, link.connected_by_angle(Sampled::ONE, heuristics));
+            }
+            if walk(&world, scattering, &mut term, &mut weights).is_none() {
+                continue;
+            }
+            let mut link_term = Term { p: term.p * f64::from(nee), f: term.f };
+            link_term.scale([f64::from(towards.value); N]);
+            let mut link = weights.connect(&towards, light);
+            by_ratio(&world, after, &mut link_term, &mut link).unwrap();
+            all.add(hero, &link_term, link.connected(Sampled::ONE, heuristics));
+
+            turn(&towards, &mut term, &mut weights);
+            if walk(&world, last, &mut term, &mut weights).is_some() {
+                all.add(hero, &term, weights.combined(Sampled::ONE, light, heuristics));
+            }
+        }
+        all.assert(&format!("{what}, equiangular"));
+    }
+
+    /// A path of one or two scattering vertices by random numbers; `None` if a point lies in empty space.
+    fn random_path<C: Components<N>, const N: usize>(&self, random: &mut Sampler) -> Option<Path> {
+        let mut path = Path { stretches: Vec::new(), light: 0, u: random.next_1d() };
+        let world = self.world::<C, N>(&path, 0);
+        let mut ray =
+            Ray { origin: Vec3::new(0.3, 0.2, 2.0), direction: (Vec3::new(0.05, -0.04, -2.0)).normalize() };
+        let vertices = 1 + usize::from(random.next_1d() < 0.6);
+        for vertex in 0..=vertices {
+            let (t0, inside) = BoxRay::enter(&ray, &self.scene.medium_from_world, f32::INFINITY)?;
+            let to_light = vertex == vertices;
+            let last = if to_light { 1.0 } else { 0.2 + 0.7 * random.next_1d() };
+            let nulls = (random.next_1d() * 3.0) as usize;
+            let mut ts: Vec<f32> = (0..nulls).map(|_| t0 + inside.t_end * last * random.next_1d()).collect();
+            ts.sort_by(f32::total_cmp);
+            let step = |t, event, control| Step { t, event, control };
+            let mut steps: Vec<_> = ts.into_iter().map(|t| step(t, Event::Null, false)).collect();
+            if !to_light {
+                steps.push(step(t0 + inside.t_end * last, Event::Scattering, random.next_1d() < 0.5));
+            }
+            for s in &steps {
+                let (_, inside, segment) = segment_at(&world, &ray, s.t)?;
+                let all = world.medium.coefficients(inside, &segment);
+                // Where the majorant is tight, rounding is all that is left of a null collision.
+                let null = (segment.majorant - all.extinction()).abs();
+                let tight = null.zip(segment.majorant, |n, m| if n < 1e-2 * m { 1.0 } else { 0.0 });
+                if s.event == Event::Null && !tight.is_zero() {
+                    return None;
+                }
+            }
+            let end = path.stretches.len();
+            path.stretches.push(Stretch { ray, steps, end: f32::INFINITY });
+            if to_light {
+                let last: &mut Stretch = &mut path.stretches[end];
+                let surface = world.nearest_surface(&last.ray, false);
+                path.light = world.arrivals(&last.ray, &surface, false).last()?.index;
+                last.end = surface.t();
+            } else {
+                let stretch = &path.stretches[end];
+                let origin = stretch.ray.at(stretch.steps.last()?.t);
+                // Towards the lamp, every other time.
+                let lamp = Vec3::new(0.9, 1.1, 0.2);
+                let direction = if random.next_1d() < 0.5 {
+                    let u = random.next_2d();
+                    lamp + 0.3 * Vec3::new(u.x - 0.5, u.y - 0.5, random.next_1d() - 0.5) - origin
+                } else {
+                    let u = random.next_2d();
+                    let z = 2.0 * u.x - 1.0;
+                    let (sin, cos) = (std::f32::consts::TAU * u.y).sin_cos();
+                    Vec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + Vec3::Z * z
+                };
+                ray = Ray { origin, direction: direction.normalize() };
+            }
+        }
+        Some(path)
+    }
+
+    fn check<C: Components<N>, const N: usize>(&self, paths: usize, what: &str) -> usize {
+        let mut random = Sampler::new(29, paths as u64, 0);
+        let mut found = 0;
+        for _ in 0..paths * 12 {
+            let Some(path) = self.random_path::<C, N>(&mut random) else { continue };
+            found += 1;
+            if found > paths {
+                break;
+            }
+            let what = format!("{what}, path {found}");
+            self.two_techniques::<PathWeights<N>, C, N>(&path, &format!("{what}, rescaled"));
+            self.two_techniques::<WeightsApart<f64, N>, C, N>(&path, &format!("{what}, apart"));
+            if self.settings.path.heuristics == Heuristics::default() {
+                self.two_techniques::<WeightsPairwise<N>, C, N>(&path, &format!("{what}, pairwise"));
+            }
+            if self.settings.path.distances == DistanceSampling::Delta {
+                self.three_techniques::<C, N>(&path, &what);
+            }
+        }
+        found
+    }
+}
+
+/// Grids of a medium, by name.
+fn grids() -> Vec<(&'static str, &'static str)> {
+    vec![
+        ("uniform", "density = { kind = \"uniform\" }"),
+        ("constant", "density = { kind = \"grid\", file = \"constant.npy\" }\nplacement = { fit = 1.0 }"),
+        ("rough", "density = { kind = \"grid\", file = \"rough.npy\" }\nplacement = { fit = 1.0 }"),
+        ("colours", "density = { kind = \"rgb-grid\", file = \"colours.npy\" }\nplacement = { fit = 1.0 }"),
+    ]
+}
+
+fn files() -> Library {
+    let rough: Vec<f32> = (0..64).map(|i| 0.3 + 0.7 * ((i * 37 % 64) as f32 / 64.0)).collect();
+    let colours: Vec<f32> = (0..192).map(|i| 0.5 + 2.0 * ((i * 53 % 192) as f32 / 192.0)).collect();
+    Library::default()
+        .with_volume("constant.npy", npy([4, 4, 4], 1, &[1.0; 64]))
+        .with_volume("rough.npy", npy([4, 4, 4], 1, &rough))
+        .with_volume("colours.npy", npy([4, 4, 4], 3, &colours))
+}
+
+fn document(grid: &str, mode: &str) -> SceneDoc {
+    let toml = format!(
+        "majorant = 1
+        [medium]
+        extinction = \"430:3, 540:1.2, 620:2\"
+        albedo = \"430:0.9, 620:0.5\"
+        phase = {{ kind = \"henyey-greenstein\", g = 0.4 }}
+        {grid}
+        [[lights]]
+        kind = \"environment\"
+        scale = 0.5
+        [[lights]]
+        kind = \"sphere\"
+        center = [0.9, 1.1, 0.2]
+        radius = 0.25
+        scale = 6.0
+        [estimator]
+        mode = \"{mode}\""
+    );
+    scene_file::parse(&toml, "path space").unwrap()
+}
+
+/// Every way to draw distances and events × majorants that bound, are loose, or are exceeded × grids × bookkeeping ×
+/// heuristics × light sampling × directions.
+#[test]
+fn the_makers_of_a_path_share_it() {
+    let heuristics = [Heuristic::Balance, Heuristic::Power, Heuristic::Maximum, Heuristic::HeroOnly];
+    let (mut setups, mut paths) = (0usize, 0);
+    for (name, grid) in grids() {
+        for mode in ["spectral", "rgb"] {
+            for distances in
+                [DistanceSampling::Delta, DistanceSampling::WeightedDelta, DistanceSampling::Decomposition]
+            {
+                for factor in [0.5f32, 1.0, 1.7] {
+                    for absorption in [Absorption::Weighted, Absorption::Analogue] {
+                        let mut doc = document(grid, mode);
+                        doc.estimator.distances = distances;
+                        doc.medium.majorant.factor = factor;
+                        doc.estimator.absorption = absorption;
+                        // The rest in turn: all values of each meet all of the above.
+                        doc.medium.majorant.shared = setups % 5 == 1;
+                        doc.estimator.heuristics.components = heuristics[setups % 4];
+                        doc.estimator.heuristics.techniques = heuristics[setups / 4 % 3];
+                        if setups % 2 == 0 {
+                            doc.estimator.heuristics = Heuristics::default();
+                        }
+                        doc.estimator.lights =
+                            [LightSelection::Uniform, LightSelection::Power, LightSelection::Contribution]
+                                [setups % 3];
+                        if setups % 7 < 3 {
+                            doc.estimator.light_sampling = LightSampling::Product;
+                        }
+                        doc.estimator.directions = [
+                            DirectionSampling::Phase,
+                            DirectionSampling::TowardsLights,
+                            DirectionSampling::Product,
+                        ][setups / 2 % 3];
+                        setups += 1;
+                        let scene = build(&doc, &mut files()).unwrap();
+                        let settings = Settings::new(&doc.estimator, 0);
+                        let what = format!(
+                            "{name}, {mode}, {distances:?}, factor {factor}, {absorption:?}, {:?}, shared {}",
+                            doc.estimator.heuristics, doc.medium.majorant.shared
+                        );
+                        paths += match &scene.medium {
+                            AnyMedium::Homogeneous(m) => check(&scene, m, settings, &what),
+                            AnyMedium::DensityGrid(m) => check(&scene, m, settings, &what),
+                            AnyMedium::RgbGrids(m) => check(&scene, m, settings, &what),
+                        };
+                    }
+                }
+            }
+        }
+    }
+    assert!(setups == 144 && paths > 40 * setups, "{paths} paths in {setups} setups");
+}
+
+fn check<M: Medium>(scene: &Scene, medium: &M, settings: Settings, what: &str) -> usize {
+    let setup = Setup { scene, medium, settings };
+    match settings.mode {
+        majorant_core::scene::Mode::Spectral => setup.check::<Wavelengths<4>, 4>(50, what),
+        majorant_core::scene::Mode::Rgb => setup.check::<RgbChannels<3>, 3>(50, what),
+    }
+}
