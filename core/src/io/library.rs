@@ -176,15 +176,8 @@ impl Resources for Library {
         if let Some(kept) = self.panoramas.get(&key) {
             return Ok(kept.clone());
         }
-        let (panorama, repaired) =
+        let (panorama, notices) =
             picture::read_panorama(&key.path).map_err(|e| ResourceError(e.to_string()))?;
-        let mut notices = Vec::new();
-        if repaired > 0 {
-            notices.push(format!(
-                "{}: {repaired} pixels that were negative, NaN or infinite were set to 0.",
-                key.path.display()
-            ));
-        }
         let read = (Arc::new(panorama), notices);
         keep(&mut self.panoramas, key, read.clone());
         Ok(read)
