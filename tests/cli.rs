@@ -7,8 +7,12 @@ mod bench;
 mod compare;
 #[path = "cli/figures.rs"]
 mod figures;
+#[path = "cli/files.rs"]
+mod files;
 #[path = "cli/inspect.rs"]
 mod inspect;
+#[path = "harness/volumes/write.rs"]
+mod write;
 
 use serde_json::Value;
 use std::path::Path;

@@ -9,8 +9,10 @@
 use std::path::Path;
 
 use majorant_core::io::volume::{
-    Limits, VolumeError, info, info_bytes, read_vdb, read_vdb_bytes, read_volume, validate_density,
+    GridChoice, GridRole, Limits, Volume, VolumeError, info, info_bytes, read_sparse_volume_bytes, read_vdb,
+    read_vdb_bytes, read_volume, validate_density,
 };
+use majorant_tests::volumes::write::{TinyGrid, vdb};
 use majorant_tests::volumes::{self, truth};
 
 #[test]
@@ -66,7 +68,9 @@ fn nan_and_infinite_voxels_are_repaired_and_counted() {
 #[test]
 fn level_set_is_read_but_is_no_density() {
     let path = volumes::fixtures().join("tiny_level_set.vdb");
-    let grid = read_vdb(&path, None, &Limits::default()).unwrap();
+    let error = read_vdb(&path, None, &Limits::default()).unwrap_err().to_string();
+    assert!(error.contains("none of its grids is a density") && error.contains("\"surface\""), "{error}");
+    let grid = read_vdb(&path, Some("surface"), &Limits::default()).unwrap();
     assert!(grid.level_set && grid.negative > 0);
     let error = validate_density(&grid, &path).unwrap_err();
     assert!(matches!(error, VolumeError::NegativeDensity { level_set: true, .. }));
@@ -82,7 +86,7 @@ fn grids_are_chosen_by_name() {
     let error = read_vdb(&path, Some("smoke"), &limits).unwrap_err().to_string();
     assert!(error.contains("\"smoke\""), "{error}");
     assert!(error.contains("\"density\", \"heat\""), "{error}");
-    // No grid of the default name: the first float grid.
+    // No grid of the default name: one with a name like it.
     let torus = volumes::fixtures().join("arnold_torus01.vdb");
     assert_eq!(read_vdb(&torus, None, &limits).unwrap().name, "voxel_fog_density");
     let vectors = volumes::fixtures().join("tiny_vector.vdb");
@@ -152,4 +156,168 @@ fn a_refused_grid_leaves_the_others_readable() {
     assert!(grids[1].error.is_none());
     assert_eq!(read_vdb_bytes(&bytes, "two.vdb", Some("heat"), &limits).unwrap().name, "heat");
     assert!(read_vdb_bytes(&bytes, "two.vdb", None, &limits).is_err(), "density is not replaced");
+}
+
+/// The grid that is chosen in a role, and what is told, by both readers of a file of float grids with these names and
+/// classes.
+fn chosen(grids: &[(&str, &str)], role: GridRole) -> Result<(String, Vec<String>), String> {
+    let grids: Vec<_> =
+        grids.iter().map(|(name, class)| TinyGrid { name, class, ..TinyGrid::default() }).collect();
+    let file = vdb(224, false, &grids);
+    let limits = Limits::default();
+    let choice = GridChoice { name: None, role };
+    let sparse = read_sparse_volume_bytes(&file, "a.vdb", choice, &limits, &|_| ());
+    let sparse = sparse.map(|volume| match volume {
+        Volume::Array(grid) => (grid.name, grid.notices),
+        Volume::Blocks(grid) => (grid.name, grid.notices),
+    });
+    if role == GridRole::Density {
+        let dense = read_vdb_bytes(&file, "a.vdb", None, &limits).map(|grid| (grid.name, grid.notices));
+        assert_eq!(
+            dense.map_err(|e| e.to_string()),
+            sparse.as_ref().map(Clone::clone).map_err(ToString::to_string)
+        );
+    }
+    sparse.map_err(|error| error.to_string())
+}
+
+#[test]
+fn the_density_is_found_by_name_and_class_and_told() {
+    let fog = "fog volume";
+    for (names, expected) in [
+        (&["temperature", "Density"][..], "Density"),
+        (&["Density", "density"], "density"),
+        (&["heat", "flame", "smoke"], "smoke"),
+        (&["velocity", "Fog"], "Fog"),
+        (&["fuel", "SOOT"], "SOOT"),
+        (&["temp", ""], ""),
+        (&["grid", "smoke"], "smoke"),
+        (&["smoke", "density"], "density"),
+        (&["vel.x", "vel.y", "vel.z", "airDensity"], "airDensity"),
+        (&["temperature", "grid"], "grid"),
+        (&["heat", "density", "density\x1e1"], "density"),
+    ] {
+        let grids: Vec<_> = names.iter().map(|name| (*name, fog)).collect();
+        let (name, notices) = chosen(&grids, GridRole::Density).unwrap();
+        assert_eq!(name, expected, "{names:?}");
+        assert!(notices.len() == 1 && notices[0].starts_with("a.vdb: "), "{notices:?}");
+        assert!(notices[0].contains(&format!("{expected:?} is read as the density")), "{notices:?}");
+        assert!(notices[0].contains("medium.density.grid"), "{notices:?}");
+    }
+    // Without a choice there is nothing to tell.
+    for grids in [&[("density", fog)][..], &[("temperature", fog), ("density", fog), ("v", "unknown")]] {
+        assert_eq!(chosen(grids, GridRole::Density).unwrap(), ("density".into(), Vec::new()));
+    }
+    // By class, where the names say nothing.
+    let by_class = [("a", "level set"), ("b", "unknown"), ("c", fog)];
+    assert_eq!(chosen(&by_class, GridRole::Density).unwrap().0, "c");
+    assert_eq!(chosen(&by_class[..2], GridRole::Density).unwrap().0, "b");
+}
+
+#[test]
+fn what_is_no_density_is_refused_with_the_list_and_the_key() {
+    let fog = "fog volume";
+    for grids in [
+        &[("temperature", fog)][..],
+        &[("Temperature", fog), ("velocity", "unknown")],
+        &[("heat", fog), ("flames", fog), ("fuel", fog)],
+        &[("smoke", "level set")],
+        &[("Density", "level set"), ("sdf", fog)],
+        &[("surface", "unknown")],
+        &[("v", "unknown")],
+    ] {
+        let error = chosen(grids, GridRole::Density).unwrap_err();
+        assert!(error.contains("none of its grids is a density"), "{error}");
+        assert!(error.contains("medium.density.grid"), "{error}");
+        assert!(grids.iter().all(|(name, _)| error.contains(&format!("{name:?}"))), "{error}");
+    }
+    // A vector grid is no density, whatever its class; asked for by name, it is read.
+    let vectors = TinyGrid { name: "smoke", values: "vec3s", ..TinyGrid::default() };
+    let file = vdb(224, false, &[vectors]);
+    assert!(read_vdb_bytes(&file, "a.vdb", None, &Limits::default()).is_err());
+    assert_eq!(read_vdb_bytes(&file, "a.vdb", Some("smoke"), &Limits::default()).unwrap().channels, 3);
+}
+
+#[test]
+fn a_temperature_is_never_a_density() {
+    let fog = "fog volume";
+    for (names, expected) in [
+        (&["density", "temperature"][..], "temperature"),
+        (&["density", "Temperature"], "Temperature"),
+        (&["smoke", "flame", "heat"], "flame"),
+        (&["density", "heat", "temperature"], "temperature"),
+    ] {
+        let grids: Vec<_> = names.iter().map(|name| (*name, fog)).collect();
+        assert_eq!(chosen(&grids, GridRole::Temperature).unwrap().0, expected, "{names:?}");
+    }
+    let error = chosen(&[("density", fog), ("velocity", fog)], GridRole::Temperature).unwrap_err();
+    assert!(error.contains("none of its grids is a temperature"), "{error}");
+    assert!(error.contains("medium.emission.temperature.grid"), "{error}");
+}
+
+/// The same bytes under another version number.
+fn with_version(bytes: &[u8], version: u32) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    bytes[8..12].copy_from_slice(&version.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn newer_file_versions_are_read_as_the_newest_known() {
+    let limits = Limits::default();
+    let mut compared = 0;
+    for path in volumes::files(&volumes::fixtures()) {
+        let bytes = std::fs::read(&path).unwrap();
+        // From 222 to 225 the layout of what these files hold is the same.
+        if path.extension().is_none_or(|e| e != "vdb") || bytes[8] < 222 {
+            continue;
+        }
+        let described = |version| {
+            let grids = info_bytes(&with_version(&bytes, version), "a.vdb", &limits).unwrap();
+            serde_json::to_value(&grids).unwrap()
+        };
+        let expected = info_bytes(&bytes, "a.vdb", &limits).unwrap();
+        assert_eq!(described(225), serde_json::to_value(&expected).unwrap(), "{}", path.display());
+        for grid in expected.iter().filter(|grid| grid.error.is_none() && grid.active_voxels < Some(1 << 24))
+        {
+            let read = |bytes: &[u8]| read_vdb_bytes(bytes, "a.vdb", Some(&grid.name), &limits).unwrap();
+            let (old, new, newer) =
+                (read(&bytes), read(&with_version(&bytes, 225)), read(&with_version(&bytes, 226)));
+            assert!(old.values == new.values && old.values == newer.values, "{}", path.display());
+            assert!(new.notices.is_empty(), "{:?}", new.notices);
+            assert!(
+                newer.notices.len() == 1 && newer.notices[0].contains("version 226"),
+                "{:?}",
+                newer.notices
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared >= 8, "{compared} grids");
+    // What cannot be read in a newer file may be new: that is said.
+    let bytes = std::fs::read(volumes::fixtures().join("gaffer_sphere.vdb")).unwrap();
+    let cut = with_version(&bytes[..bytes.len() - 100], 240);
+    let error = read_vdb_bytes(&cut, "a.vdb", None, &limits).unwrap_err().to_string();
+    assert!(error.contains("version 240") && error.contains("225"), "{error}");
+    let old = read_vdb_bytes(&with_version(&bytes, 219), "a.vdb", None, &limits).unwrap_err().to_string();
+    assert!(old.contains("version 219") && old.contains("220 to 225"), "{old}");
+}
+
+#[test]
+fn native_half_grids_are_read() {
+    let limits = Limits::default();
+    let read = |version, zip, grid: TinyGrid| {
+        read_vdb_bytes(&vdb(version, zip, &[grid]), "a.vdb", None, &limits).unwrap().values
+    };
+    let float = TinyGrid::default();
+    let expected = read(224, false, float);
+    assert!(expected.len() == 512 && expected.contains(&1.0) && expected.contains(&(1.0 / 512.0)));
+    for zip in [false, true] {
+        assert_eq!(read(224, zip, float), expected);
+        assert_eq!(read(225, zip, TinyGrid { saved_as_half: true, ..float }), expected, "zip: {zip}");
+        let native = TinyGrid { values: "half", ..float };
+        assert_eq!(read(225, zip, native), expected, "zip: {zip}");
+        let grids = info_bytes(&vdb(225, zip, &[native]), "a.vdb", &limits).unwrap();
+        assert!(grids[0].half && grids[0].kind == "Tree_half_5_4_3" && grids[0].error.is_none());
+    }
 }

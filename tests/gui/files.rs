@@ -4,9 +4,11 @@ use super::harness::{click, doc, drop_file, lab, lab_on, open, undo, wait};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
+use majorant::lab::LabApp;
 use majorant::model::Source;
 use majorant_core::scene::{DensityDoc, LightDoc, SceneDoc};
 use majorant_core::session::Status;
+use majorant_tests::volumes::write::{TinyGrid, vdb};
 
 #[test]
 fn an_embedded_scene_opens_from_the_menu() {
@@ -158,4 +160,36 @@ fn a_new_environment_map_asks_for_its_picture() {
         panic!("{:?}", doc(&lab).lights)
     };
     assert_eq!(file, "sky.exr");
+}
+
+#[test]
+fn the_grid_that_was_chosen_is_told() {
+    let (mut lab, directory) = lab();
+    let grid = |name| TinyGrid { name, ..TinyGrid::default() };
+    let path = directory.path().join("smoke.vdb");
+    std::fs::write(&path, vdb(224, false, &[grid("temperature"), grid("Density")])).expect("a file");
+    drop_file(&mut lab, path);
+    wait(&mut lab, "the notice", |app| !app.state().notices.is_empty());
+    let notice = lab.state().state().notices[0].clone();
+    assert!(notice.contains("\"Density\" is read as the density"), "{notice}");
+    wait(&mut lab, "rendering it", |app| app.state().status == Status::Finished);
+    lab.run_steps(3);
+    assert!(lab.query_by_label_contains("\"Density\" is read as the density").is_some());
+    open(&mut lab, "Density");
+    lab.run_steps(6);
+    assert!(lab.query_by_value("by default: Density").is_some());
+
+    // A file without a density is refused as a whole.
+    let before = doc(&lab).clone();
+    let path = directory.path().join("hot.vdb");
+    std::fs::write(&path, vdb(224, false, &[grid("temperature")])).expect("a file");
+    drop_file(&mut lab, path);
+    let refusal = |app: &LabApp| {
+        let lines = app.messages().lines().iter();
+        lines.map(|line| line.text.clone()).find(|text| text.contains("hot.vdb"))
+    };
+    wait(&mut lab, "hot.vdb", |app| refusal(app).is_some());
+    let line = refusal(lab.state()).expect("it was waited for");
+    assert!(line.contains("medium.density.grid") && line.contains("\"temperature\""), "{line}");
+    assert_eq!(*doc(&lab), before);
 }

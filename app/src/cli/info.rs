@@ -1,7 +1,7 @@
 //! `majorant info`: what is in a file.
 
-use super::{Failure, print_line};
-use majorant_core::io::volume::{self, GridInfo, Limits, VoxelGrid};
+use super::{Failure, options, print_line};
+use majorant_core::io::volume::{self, FileInfo, GridInfo, Limits, VoxelGrid};
 use majorant_core::io::{picture, scene_file};
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 --json prints one line. For a volume: {\"grids\":[{\"name\",\"type\",\"class\",\"half\",\"map\",\"active_voxels\",
 \"min\",\"max\",\"mean\",\"bbox\":[x0,y0,z0,x1,y1,z1],\"background\"}…]}; the bounding box is in inclusive index
-coordinates, the mean is over active voxels, and a grid that is refused carries \"error\" instead.")]
+coordinates, the mean is over active voxels, and a grid that is refused carries \"error\" instead. \"density\" names
+the grid that is rendered when none is named, \"notices\" says what reading the file chose or repaired. For an EXR:
+width, height, display_window, data_window [x0,y0,x1,y1], channels, majorant, notices.")]
 pub(super) struct Arguments {
     /// A .vdb, .vol, .npy, .raw, .exr or .toml file.
     file: PathBuf,
@@ -22,10 +24,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.file;
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match extension.to_ascii_lowercase().as_str() {
-        "vdb" => grids(&volume::info(path)?, arguments.json),
+        "vdb" => grids(&volume::file_info(path)?, arguments.json),
         "vol" | "npy" | "raw" => {
             let grid = volume::read_volume(path, None, &Limits::default())?;
-            grids(&[describe(&grid, extension)], arguments.json)
+            let file = FileInfo { grids: vec![describe(&grid, extension)], ..FileInfo::default() };
+            grids(&file, arguments.json)
         }
         "exr" => exr(path, arguments.json),
         "toml" => scene(path, arguments.json),
@@ -54,10 +57,12 @@ fn describe(grid: &VoxelGrid, kind: &str) -> GridInfo {
     }
 }
 
-fn grids(grids: &[GridInfo], json: bool) -> Result<(), Failure> {
+fn grids(file: &FileInfo, json: bool) -> Result<(), Failure> {
+    options::print_notes(&file.notices);
     if json {
-        return print_line(&serde_json::json!({ "grids": grids }).to_string());
+        return print_line(&serde_json::to_string(file)?);
     }
+    let grids = &file.grids;
     if grids.is_empty() {
         return print_line("The file holds no grids.");
     }
@@ -96,6 +101,10 @@ fn quoted(name: &str) -> String {
 
 fn exr(path: &Path, json: bool) -> Result<(), Failure> {
     let info = picture::exr_info(path)?;
+    let mut notices = info.notices;
+    // A file without colour, as a depth map, has none that could be used.
+    notices.extend(picture::texel_notices(path).unwrap_or_default());
+    options::print_notes(&notices);
     let metadata: Option<serde_json::Value> =
         info.metadata.as_deref().and_then(|text| serde_json::from_str(text).ok());
     if json {
@@ -103,8 +112,11 @@ fn exr(path: &Path, json: bool) -> Result<(), Failure> {
             &serde_json::json!({
                 "width": info.width,
                 "height": info.height,
+                "display_window": info.display_window,
+                "data_window": info.data_window,
                 "channels": info.channels,
                 "majorant": metadata,
+                "notices": notices,
             })
             .to_string(),
         );

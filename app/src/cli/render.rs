@@ -5,7 +5,7 @@ use super::{Failure, options, print_line, source};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, scene_file};
 use majorant_core::scene::{Limits, SceneDoc};
-use majorant_core::session::{Job, Role, Session, Status, ViewId};
+use majorant_core::session::{Job, Role, Session, Status, ViewId, ViewState};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -18,7 +18,8 @@ A limit that is given (--spp, --seconds) replaces both limits of the scene.
 --set 'medium.extinction=\"430:8, 540:40\"'.
 
 --json ends with one line: estimator, mode, width, height, spp, seconds, cpu_seconds, paths, lookups,
-mean [r,g,b], non_finite, threads, seed.")]
+mean [r,g,b], non_finite, threads, seed, density_grid (the name of the grid that was read), notices [what
+reading the files chose or repaired].")]
 pub(super) struct Arguments {
     /// A scene file, or the name of an embedded scene.
     scene: String,
@@ -88,12 +89,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     let doc = Arc::new(doc);
-    let snapshot = render(Arc::clone(&doc), source.resources)?;
+    let (snapshot, state) = render(Arc::clone(&doc), source.resources)?;
     for path in &arguments.output {
         writer(path)?(path, &snapshot, &doc)?;
     }
     if arguments.json {
-        print_line(&summary(&snapshot, &doc).to_string())?;
+        print_line(&summary(&snapshot, &doc, &state).to_string())?;
     }
     Ok(())
 }
@@ -112,7 +113,11 @@ fn writer(path: &Path) -> Result<Writer, Failure> {
 /// Between two looks at how far the reading of a file is.
 const READING: Duration = Duration::from_millis(50);
 
-fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc<Snapshot>, Failure> {
+/// The finished picture, and the state of its view at the end.
+fn render(
+    doc: Arc<SceneDoc>,
+    library: majorant_core::io::Library,
+) -> Result<(Arc<Snapshot>, ViewState), Failure> {
     let progress = Progress::new(doc.render.spp, doc.render.seconds);
     // One waiting wake-up is enough: the state is read anew at each.
     let (wake, woken) = mpsc::sync_channel::<()>(1);
@@ -129,12 +134,12 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
         if let Some(loading) = &state.loading {
             progress.read(loading);
         }
-        match (state.status, state.snapshot) {
+        match (state.status.clone(), state.snapshot.clone()) {
             (Status::Failed(message), _) => return Err(Failure::Message(message)),
             (Status::Finished, Some(snapshot)) => {
                 progress.finish();
                 options::print_notes(&state.notices);
-                return Ok(snapshot);
+                return Ok((snapshot, state));
             }
             // Reading a file wakes nobody.
             (Status::Building, _) => match woken.recv_timeout(READING) {
@@ -148,7 +153,7 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
     }
 }
 
-fn summary(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
+fn summary(snapshot: &Snapshot, doc: &SceneDoc, state: &ViewState) -> serde_json::Value {
     serde_json::json!({
         "estimator": doc.estimator.id,
         "mode": doc.estimator.mode,
@@ -163,5 +168,7 @@ fn summary(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
         "non_finite": snapshot.tally.non_finite,
         "threads": snapshot.threads,
         "seed": doc.render.seed,
+        "density_grid": state.scene.as_ref().map(|scene| &scene.density_grid).filter(|name| !name.is_empty()),
+        "notices": state.notices,
     })
 }

@@ -84,7 +84,12 @@ impl LabApp {
                 self.messages.say(Severity::Done, format!("Wrote {}.", path.display()));
             }
             Outcome::Exported(_, Err(problem)) => self.messages.fail(problem),
-            Outcome::Reference(path, read) => self.wall.finish_reading(&path, read),
+            Outcome::Reference(path, read) => {
+                for notice in read.iter().flat_map(|reference| &reference.notices) {
+                    self.messages.say(Severity::Done, notice.clone());
+                }
+                self.wall.finish_reading(&path, read);
+            }
         }
     }
 

@@ -117,18 +117,19 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             };
         }
     });
-    let Cx { draft, grids, commands, .. } = cx;
+    let Cx { draft, grids, commands, state, .. } = cx;
     if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut draft.medium.density {
-        grid_ui(ui, "density", grid, grids, commands, Purpose::DensityFile);
+        let chosen = state.scene.as_ref().map(|info| info.density_grid.as_str());
+        grid_ui(ui, ("density", chosen), grid, grids, commands, Purpose::DensityFile);
     } else {
         hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to fill the box with it.");
     }
 }
 
-/// A grid in a file, for what `name` says; `purpose` is what a chosen file is for.
+/// A grid in a file, for what `name` says; `chosen` is the grid that was read, `purpose` what a chosen file is for.
 pub(super) fn grid_ui(
     ui: &mut Ui,
-    name: &str,
+    (name, chosen): (&str, Option<&str>),
     grid: &mut GridRef,
     lists: &GridLists,
     commands: &mut Vec<Command>,
@@ -149,7 +150,11 @@ pub(super) fn grid_ui(
         return;
     };
     row(ui, "Grid", "Which of the file's grids is used", |ui, label| {
-        let shown = grid.grid.clone().unwrap_or_else(|| "by default".into());
+        let by_default = match chosen {
+            Some(chosen) if names.iter().any(|name| name == chosen) => format!("by default: {chosen}"),
+            _ => "by default".into(),
+        };
+        let shown = grid.grid.clone().unwrap_or(by_default);
         let combo = ComboBox::from_id_salt((name, "grid")).selected_text(shown).width(ui.available_width());
         let response = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut grid.grid, None, "by default");

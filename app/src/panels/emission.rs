@@ -32,7 +32,7 @@ impl Panel for Emission {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let Cx { draft, opened, grids, commands, .. } = cx;
+        let Cx { draft, opened, grids, commands, state, .. } = cx;
         let mut glows = draft.medium.emission.is_some();
         switch(
             ui,
@@ -65,7 +65,8 @@ impl Panel for Emission {
                 }
                 DensityDoc::Uniform {} => GridRef::default(),
             });
-            density::grid_ui(ui, "temperature", grid, grids, commands, Purpose::TemperatureFile);
+            let chosen = state.scene.as_ref().map(|info| info.temperature_grid.as_str());
+            density::grid_ui(ui, ("temperature", chosen), grid, grids, commands, Purpose::TemperatureFile);
         } else {
             emission.temperature = None;
         }

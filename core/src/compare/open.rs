@@ -58,6 +58,7 @@ pub fn open(
     let path = library.locate(file);
     let file = path.display().to_string();
     let mut reference = Reference::read(&path)?;
+    notes.extend(reference.notices.iter().cloned());
     let (size, scene) =
         ([reference.width, reference.height], [doc.film.width as usize, doc.film.height as usize]);
     let target = library.fingerprint(doc);

@@ -23,6 +23,8 @@ pub struct Reference {
     pub origin: String,
     /// Its random numbers, if a file says so: no view may have the same.
     pub seed: Option<u64>,
+    /// What reading its file changed or left out.
+    pub notices: Vec<String>,
 }
 
 /// Whose pixels they are: a view's are shared, not copied.
@@ -43,6 +45,7 @@ impl Reference {
             picture: Source::View(Arc::clone(snapshot)),
             origin: origin.into(),
             seed: None,
+            notices: Vec::new(),
         }
     }
 
@@ -55,7 +58,7 @@ impl Reference {
         origin: String,
     ) -> Self {
         let picture = Source::Own { mean, standard_error: Some(standard_error), noise: None };
-        Self { width, height, picture, target: None, origin, seed: None }
+        Self { width, height, picture, target: None, origin, seed: None, notices: Vec::new() }
     }
 
     /// Mean linear sRGB, row by row from the top.
@@ -106,6 +109,7 @@ impl Reference {
             target: target.map(str::to_owned),
             origin: name.into_owned(),
             seed: metadata.as_ref().and_then(|m| m["seed"].as_u64()),
+            notices: read.notices,
         })
     }
 
@@ -162,6 +166,7 @@ impl Reference {
             target: Some(first.target.clone()),
             origin: origin.into(),
             seed: None,
+            notices: Vec::new(),
         })
     }
 

@@ -1,7 +1,7 @@
 //! Finds and keeps the files that scenes name.
 
 use super::placing::place;
-use super::volume::{self, Limits, Volume};
+use super::volume::{self, GridChoice, GridRole, Limits, Volume};
 use super::{Progress, embedded, fingerprint, phase_table, picture};
 use crate::light::Panorama;
 use crate::medium::Precision;
@@ -17,6 +17,7 @@ use std::time::SystemTime;
 struct Key {
     path: PathBuf,
     grid: Option<String>,
+    role: GridRole,
     modified: Option<SystemTime>,
 }
 
@@ -82,7 +83,7 @@ impl Library {
     fn key(&self, file: &str, grid: Option<&String>) -> Key {
         let path = self.locate(file);
         let modified = std::fs::metadata(&path).and_then(|m| m.modified()).ok();
-        Key { path, grid: grid.cloned(), modified }
+        Key { path, grid: grid.cloned(), role: GridRole::Density, modified }
     }
 
     /// Names a file's content; a file that cannot be read goes by its name.
@@ -112,11 +113,27 @@ impl Library {
         placed
     }
 
+    /// A scalar grid as it is read in a role, from what is kept or from its file.
+    fn scalar_in_role(
+        &mut self,
+        grid: &GridRef,
+        role: GridRole,
+        precision: Precision,
+    ) -> Result<PlacedGrid<1>, ResourceError> {
+        let key = (Key { role, ..self.key(&grid.file, grid.grid.as_ref()) }, precision);
+        if let Some(kept) = self.scalar.get(&key) {
+            return Ok(kept.clone());
+        }
+        let placed = self.read_and_place(&key.0, &grid.file, precision)?;
+        keep(&mut self.scalar, key, placed.clone());
+        Ok(placed)
+    }
+
     fn read(&self, key: &Key, file: &str) -> Result<Volume, ResourceError> {
         if file.is_empty() {
             return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
-        let grid = key.grid.as_deref();
+        let grid = GridChoice { name: key.grid.as_deref(), role: key.role };
         // Bricks and what else follows take about as long as a fifth of the rest.
         let watch = |share: f64| self.progress.at(READING * share);
         let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
@@ -149,13 +166,11 @@ fn keep<K: Eq + Hash, V>(map: &mut HashMap<K, V>, key: K, value: V) {
 
 impl Resources for Library {
     fn scalar_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<1>, ResourceError> {
-        let key = (self.key(&grid.file, grid.grid.as_ref()), precision);
-        if let Some(kept) = self.scalar.get(&key) {
-            return Ok(kept.clone());
-        }
-        let placed = self.read_and_place(&key.0, &grid.file, precision)?;
-        keep(&mut self.scalar, key, placed.clone());
-        Ok(placed)
+        self.scalar_in_role(grid, GridRole::Density, precision)
+    }
+
+    fn temperature_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError> {
+        self.scalar_in_role(grid, GridRole::Temperature, Precision::F32)
     }
 
     fn rgb_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<3>, ResourceError> {
@@ -176,15 +191,8 @@ impl Resources for Library {
         if let Some(kept) = self.panoramas.get(&key) {
             return Ok(kept.clone());
         }
-        let (panorama, repaired) =
+        let (panorama, notices) =
             picture::read_panorama(&key.path).map_err(|e| ResourceError(e.to_string()))?;
-        let mut notices = Vec::new();
-        if repaired > 0 {
-            notices.push(format!(
-                "{}: {repaired} pixels that were negative, NaN or infinite were set to 0.",
-                key.path.display()
-            ));
-        }
         let read = (Arc::new(panorama), notices);
         keep(&mut self.panoramas, key, read.clone());
         Ok(read)

@@ -2,11 +2,13 @@
 
 pub mod embedded;
 pub mod export;
+mod exr_picture;
 pub mod fingerprint;
 mod library;
 pub mod phase_table;
 pub mod picture;
 mod placing;
+mod primaries;
 mod progress;
 pub mod scene_file;
 pub mod volume;

@@ -1,11 +1,11 @@
 //! Pictures of the surroundings: EXR and Radiance HDR, as linear RGB.
 
+use super::exr_picture::{self, MAX_PIXELS, Opened};
+use super::primaries;
 use crate::light::Panorama;
 use exr::prelude as exr;
+use glam::DMat3;
 use std::path::Path;
-
-/// The most pixels that are read: 128 million take 1.5 GB.
-const MAX_PIXELS: usize = 128_000_000;
 
 /// Why a picture could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -41,16 +41,44 @@ pub struct Picture {
     pub pixels: Vec<[f32; 3]>,
 }
 
-/// Reads an `.exr` or `.hdr` picture.
+/// A picture as its file has it.
+struct Stored {
+    picture: Picture,
+    /// Linear sRGB from the file's RGB, by columns; `None` where it is the same.
+    to_srgb: Option<DMat3>,
+    notices: Vec<String>,
+}
+
+/// Reads an `.exr` or `.hdr` picture as linear sRGB. Of an EXR, what its display window shows: overscan is cut off, and
+/// what the file lacks is black.
 ///
 /// # Errors
 /// When the file is missing, damaged, of another kind, or larger than memory allows.
 pub fn read(path: &Path) -> Result<Picture, PictureError> {
+    let Stored { mut picture, to_srgb, .. } = stored(path, |_| Ok(()))?;
+    if let Some(matrix) = to_srgb {
+        picture.pixels.iter_mut().for_each(|pixel| *pixel = primaries::convert(&matrix, *pixel));
+    }
+    Ok(picture)
+}
+
+/// Reads a picture whose head passes a check.
+fn stored(path: &Path, check: impl Fn(&Opened) -> Result<(), PictureError>) -> Result<Stored, PictureError> {
     let file = path.display().to_string();
     let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     match extension.as_str() {
-        "exr" => read_exr(path, &file),
+        "exr" => {
+            let opened = Opened::head(path)?;
+            check(&opened)?;
+            let (width, height) = (opened.display().size.width(), opened.display().size.height());
+            let pixels = opened.colour(path, 0.0)?;
+            Ok(Stored {
+                picture: Picture { width, height, pixels },
+                to_srgb: opened.to_srgb(),
+                notices: opened.notices("are black"),
+            })
+        }
         "hdr" => {
             let reader = image::ImageReader::open(path)
                 .map_err(|source| PictureError::Io { file: file.clone(), source })?;
@@ -62,7 +90,7 @@ pub fn read(path: &Path) -> Result<Picture, PictureError> {
             let rgb = reader.decode().map_err(|e| invalid(e.to_string()))?.into_rgb32f();
             let (width, height) = (rgb.width() as usize, rgb.height() as usize);
             let pixels = rgb.pixels().map(|p| p.0).collect();
-            Ok(Picture { width, height, pixels })
+            Ok(Stored { picture: Picture { width, height, pixels }, to_srgb: None, notices: Vec::new() })
         }
         other => Err(invalid(format!("`.{other}` is not supported; use .exr or .hdr"))),
     }
@@ -77,116 +105,120 @@ pub struct EstimatedPicture {
     pub standard_error: Option<Vec<[f32; 3]>>,
     /// The JSON that this program leaves.
     pub metadata: Option<String>,
+    /// What is to be known about its windows and primaries.
+    pub notices: Vec<String>,
 }
 
-/// Reads an EXR with all that is known about its noise.
+/// Reads an EXR with all that is known about its noise, as linear sRGB. Pixels of the display window that the file lacks
+/// are NaN: nothing is known of them, and no error is measured there.
 ///
 /// # Errors
 /// As for [`read`].
 pub fn read_estimate(path: &Path) -> Result<EstimatedPicture, PictureError> {
-    use exr::{AttributeValue, ReadChannels, ReadLayers, Text};
     let file = path.display().to_string();
-    let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
+    let invalid = |reason: &str| PictureError::Invalid { file: file.clone(), reason: reason.into() };
     if !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr")) {
-        return Err(invalid("a reference has to be an EXR file".into()));
+        return Err(invalid("a reference has to be an EXR file"));
     }
-    guard_exr(path, &file)?;
-    let image = exr::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_file(path)
-        .map_err(|e| invalid(e.to_string()))?;
-    let layer = image.layer_data;
-    let (width, height) = (layer.size.width(), layer.size.height());
-    let channel = |name: &str| {
-        let found = layer.channel_data.list.iter().find(|c| c.name == *name)?;
-        Some(found.sample_data.values_as_f32().collect::<Vec<f32>>())
-    };
-    let planes = |prefix: &str| {
-        let [r, g, b] = ["R", "G", "B"].map(|c| channel(&format!("{prefix}{c}")));
-        let (r, g, b) = (r?, g?, b?);
-        Some(r.into_iter().zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect::<Vec<_>>())
-    };
-    let pixels = planes("").ok_or_else(|| invalid("it has no channels named R, G and B".into()))?;
-    let metadata = match layer.attributes.other.get(&Text::from(super::export::METADATA)) {
-        Some(AttributeValue::Text(text)) => Some(text.to_string()),
-        _ => None,
-    };
-    let picture = Picture { width, height, pixels };
-    Ok(EstimatedPicture { picture, standard_error: planes("stderr."), metadata })
-}
-
-/// Refuses what would take too much memory. The header is read first: a damaged one can ask for any amount.
-fn guard_exr(path: &Path, file: &str) -> Result<(), PictureError> {
-    use exr::*;
-    let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
-    std::fs::metadata(path).map_err(|source| PictureError::Io { file: file.to_owned(), source })?;
-    let meta = MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
-    for header in &meta.headers {
-        if header.layer_size.area() > MAX_PIXELS || header.channels.list.is_empty() {
-            return Err(invalid(format!(
-                "a layer of {} × {} pixels and {} channels; at most {MAX_PIXELS} pixels fit",
-                header.layer_size.width(),
-                header.layer_size.height(),
-                header.channels.list.len()
-            )));
+    let opened = Opened::head(path)?;
+    let size = opened.display().size;
+    let mut pixels = opened.colour(path, f32::NAN)?;
+    let mut standard_error = opened.standard_error(path, f32::NAN)?;
+    if pixels.iter().all(|pixel| pixel.iter().all(|x| x.is_nan())) {
+        return Err(invalid("none of its pixels lies in its display window, or all of them are NaN"));
+    }
+    let mut notices = opened.notices("are unknown, and no error is measured there");
+    if let Some(matrix) = opened.to_srgb() {
+        pixels.iter_mut().for_each(|pixel| *pixel = primaries::convert(&matrix, *pixel));
+        if let Some(errors) = &mut standard_error {
+            errors.iter_mut().for_each(|error| *error = primaries::convert_errors(&matrix, *error));
+            notices.push(format!("{file}: its standard errors were converted to upper bounds."));
         }
     }
-    Ok(())
+    let picture = Picture { width: size.width(), height: size.height(), pixels };
+    Ok(EstimatedPicture { picture, standard_error, metadata: metadata(&opened), notices })
 }
 
-fn read_exr(path: &Path, file: &str) -> Result<Picture, PictureError> {
-    use exr::*;
-    let invalid = |reason: String| PictureError::Invalid { file: file.to_owned(), reason };
-    guard_exr(path, file)?;
-    let image = read_first_rgba_layer_from_file(
-        path,
-        |size, _| Picture { width: size.width(), height: size.height(), pixels: vec![[0.0; 3]; size.area()] },
-        |picture: &mut Picture, at, (r, g, b, _a): (f32, f32, f32, f32)| {
-            let index = at.y() * picture.width + at.x();
-            picture.pixels[index] = [r, g, b];
-        },
-    )
-    .map_err(|e| invalid(format!("{e}; it needs a layer with R, G and B channels")))?;
-    Ok(image.layer_data.channel_data.pixels)
+/// The JSON that [`super::export::write_exr`] leaves.
+fn metadata(opened: &Opened) -> Option<String> {
+    let name = exr::Text::from(super::export::METADATA);
+    match opened.header().own_attributes.other.get(&name) {
+        Some(exr::AttributeValue::Text(text)) => Some(text.to_string()),
+        _ => None,
+    }
 }
 
-/// Reads a panorama. Texels that are negative or not finite are set to 0 and counted.
+/// What an infinite texel becomes: the largest half float, which is what a sun is clipped to by writers that do not let
+/// it overflow.
+const LARGEST_HALF: f32 = 65504.0;
+/// Beyond this, sums over a large picture leave the range of floats.
+const INFINITE: f32 = 1e30;
+
+/// Reads a panorama as linear sRGB that is finite and not negative. Infinite texels become [`LARGEST_HALF`], what is NaN
+/// or negative 0; each is told.
 ///
 /// # Errors
-/// As for [`read`], and when the picture is black.
-pub fn read_panorama(path: &Path) -> Result<(Panorama, usize), PictureError> {
-    let mut picture = read(path)?;
-    let mut repaired = 0;
-    for pixel in &mut picture.pixels {
-        if pixel.iter().any(|x| !x.is_finite() || *x < 0.0) {
-            repaired += 1;
-            *pixel = pixel.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
+/// As for [`read`], and when the picture is black or a cube map.
+pub fn read_panorama(path: &Path) -> Result<(Panorama, Vec<String>), PictureError> {
+    let file = path.display().to_string();
+    let invalid = |reason: &str| PictureError::Invalid { file: file.clone(), reason: reason.into() };
+    let equirectangular = |opened: &Opened| match opened.is_cube() {
+        true => Err(invalid("it is a cube map: convert it to a latitude-longitude map")),
+        false => Ok(()),
+    };
+    let Stored { mut picture, to_srgb, mut notices } = stored(path, equirectangular)?;
+    notices
+        .extend(usable(&mut picture.pixels, to_srgb).into_iter().map(|notice| format!("{file}: {notice}")));
+    let panorama = Panorama::new(picture.width, picture.height, picture.pixels)
+        .ok_or_else(|| invalid("the picture is empty or black, it would give no light"))?;
+    Ok((panorama, notices))
+}
+
+/// Makes texels finite, linear sRGB and not negative, and tells what was changed.
+fn usable(texels: &mut [[f32; 3]], to_srgb: Option<DMat3>) -> Vec<String> {
+    let (mut infinite, mut undefined, mut negative) = (0_usize, 0_usize, 0_usize);
+    for texel in texels {
+        infinite += usize::from(texel.iter().any(|x| *x > INFINITE));
+        undefined += usize::from(texel.iter().any(|x| x.is_nan()));
+        *texel = texel.map(|x| match x {
+            x if x.is_nan() => 0.0,
+            x if x > INFINITE => LARGEST_HALF,
+            x => x.max(-INFINITE),
+        });
+        if let Some(matrix) = &to_srgb {
+            *texel = primaries::convert(matrix, *texel);
         }
+        negative += usize::from(texel.iter().any(|x| *x < 0.0));
+        *texel = texel.map(|x| x.max(0.0));
     }
-    let panorama = Panorama::new(picture.width, picture.height, picture.pixels).ok_or_else(|| {
-        PictureError::Invalid {
-            file: path.display().to_string(),
-            reason: "the picture is empty or black, it would give no light".into(),
-        }
-    })?;
-    Ok((panorama, repaired))
+    let tell = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}."));
+    [
+        tell(infinite, "infinite texel(s) set to 65504, the largest half float"),
+        tell(undefined, "texel(s) with a channel that is not a number (NaN), set to 0"),
+        tell(negative, "texel(s) with a channel below 0, or a colour out of sRGB's gamut, clamped at 0"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// What an EXR file says about itself.
 #[derive(Clone, Debug)]
 pub struct ExrInfo {
-    /// Columns.
+    /// Columns of the picture, that is, of the display window.
     pub width: usize,
-    /// Rows.
+    /// Rows of the picture.
     pub height: usize,
-    /// Names of the channels of the first part.
+    /// First and last pixel of the display window, both inclusive: x, y, x, y.
+    pub display_window: [i64; 4],
+    /// First and last pixel in the file.
+    pub data_window: [i64; 4],
+    /// Names of the channels of the part that holds the colour, or of the first.
     pub channels: Vec<String>,
     /// The JSON that [`super::export::write_exr`] leaves, if this program wrote the file.
     pub metadata: Option<String>,
+    /// What is to be known about its windows and primaries.
+    pub notices: Vec<String>,
 }
 
 /// Reads the header of an EXR file.
@@ -194,20 +226,27 @@ pub struct ExrInfo {
 /// # Errors
 /// When the file is missing or not an EXR file.
 pub fn exr_info(path: &Path) -> Result<ExrInfo, PictureError> {
-    let file = path.display().to_string();
-    std::fs::metadata(path).map_err(|source| PictureError::Io { file: file.clone(), source })?;
-    let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
-    let meta = exr::MetaData::read_from_file(path, false).map_err(|e| invalid(e.to_string()))?;
-    let header = meta.headers.first().ok_or_else(|| invalid("it has no part".into()))?;
-    let name = exr::Text::from(super::export::METADATA);
-    let metadata = match header.own_attributes.other.get(&name) {
-        Some(exr::AttributeValue::Text(text)) => Some(text.to_string()),
-        _ => None,
-    };
+    let opened = Opened::head(path)?;
+    let size = opened.display().size;
     Ok(ExrInfo {
-        width: header.layer_size.width(),
-        height: header.layer_size.height(),
-        channels: header.channels.list.iter().map(|c| c.name.to_string()).collect(),
-        metadata,
+        width: size.width(),
+        height: size.height(),
+        display_window: exr_picture::corners(opened.display()),
+        data_window: exr_picture::corners(opened.data()),
+        channels: opened.header().channels.list.iter().map(|c| c.name.to_string()).collect(),
+        metadata: metadata(&opened),
+        notices: opened.notices("are black in an environment map, and unknown in a reference"),
     })
+}
+
+/// Tells what would be changed in a picture if it were used as an environment map: texels that are not finite or
+/// negative.
+///
+/// # Errors
+/// As for [`read`].
+pub fn texel_notices(path: &Path) -> Result<Vec<String>, PictureError> {
+    let file = path.display();
+    let Stored { mut picture, to_srgb, .. } = stored(path, |_| Ok(()))?;
+    let notices = usable(&mut picture.pixels, to_srgb);
+    Ok(notices.into_iter().map(|notice| format!("{file}: as an environment map, {notice}")).collect())
 }

@@ -26,7 +26,10 @@ pub(super) fn place<const C: usize>(
             volume.channels()
         )));
     }
-    let mut notices = Vec::new();
+    let (name, mut notices) = match &volume {
+        Volume::Array(voxels) => (voxels.name.clone(), voxels.notices.clone()),
+        Volume::Blocks(blocks) => (blocks.name.clone(), blocks.notices.clone()),
+    };
     let (repaired, world_from_index) = match &volume {
         Volume::Array(voxels) => (voxels.repaired as u64, voxels.world_from_index),
         Volume::Blocks(blocks) => (blocks.repaired, blocks.world_from_index),
@@ -58,7 +61,7 @@ pub(super) fn place<const C: usize>(
         path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
     let grid = Arc::new(grid);
     let majorants = Arc::new(Majorants::new(Arc::clone(&grid)));
-    Ok(PlacedGrid { grid, majorants, object_from_unit, says_where, notices })
+    Ok(PlacedGrid { name, grid, majorants, object_from_unit, says_where, notices })
 }
 
 /// The grid of an array, and the place of the unit cube among its indices.

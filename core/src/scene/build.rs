@@ -21,6 +21,8 @@ use std::sync::Arc;
 /// A grid with the box that it fills in its own file's space.
 #[derive(Clone, Debug)]
 pub struct PlacedGrid<const C: usize> {
+    /// Its name in the file; empty where it has none.
+    pub name: String,
     /// The samples.
     pub grid: Arc<Grid<C>>,
     /// Their local bounds.
@@ -29,7 +31,7 @@ pub struct PlacedGrid<const C: usize> {
     pub object_from_unit: Affine3A,
     /// Whether the file says where its box stands, as OpenVDB and `.vol` do and `.npy` does not.
     pub says_where: bool,
-    /// What reading repaired, e.g. NaN voxels that were set to 0.
+    /// What reading repaired or chose, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
 }
 
@@ -40,11 +42,17 @@ pub struct ResourceError(pub String);
 
 /// Where a scene's files come from. Implementations keep what they have read.
 pub trait Resources {
-    /// A scalar grid, kept at a precision.
+    /// A scalar grid, kept at a precision; without a name, the grid that is named like a density.
     ///
     /// # Errors
-    /// When the file is missing, damaged, of another kind, or too large.
+    /// When the file is missing, damaged, of another kind, or too large, or holds no grid of that name or kind.
     fn scalar_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<1>, ResourceError>;
+
+    /// A scalar grid at full precision; without a name, the grid that is named like a temperature.
+    ///
+    /// # Errors
+    /// As for [`Self::scalar_grid`].
+    fn temperature_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError>;
 
     /// An RGB grid, kept at a precision.
     ///
@@ -200,6 +208,7 @@ fn build_medium(
         DensityDoc::Uniform {} => ExtinctionField::Uniform(sigma),
         DensityDoc::Grid(grid) => {
             let read = resources.scalar_grid(grid, doc.precision).map_err(at("medium.density"))?;
+            info.density_grid.clone_from(&read.name);
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
@@ -209,6 +218,7 @@ fn build_medium(
         }
         DensityDoc::RgbGrid(grid) => {
             let read = resources.rgb_grid(grid, doc.precision).map_err(at("medium.density"))?;
+            info.density_grid.clone_from(&read.name);
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
@@ -295,7 +305,8 @@ fn build_emission(
         scale: doc.scale,
     };
     if let Some(grid) = &doc.temperature {
-        let read = resources.scalar_grid(grid, Precision::F32)?;
+        let read = resources.temperature_grid(grid)?;
+        info.temperature_grid.clone_from(&read.name);
         info.memory_bytes += read.grid.bytes();
         notices.extend(read.notices);
         if let Some(density) = density_box.filter(|_| read.says_where) {

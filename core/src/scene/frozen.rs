@@ -47,6 +47,10 @@ pub struct Scene {
 /// Numbers about a scene that people want to see.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneInfo {
+    /// Name of the density's grid in its file; empty where it has none.
+    pub density_grid: String,
+    /// Name of the temperature's grid in its file; empty where it has none.
+    pub temperature_grid: String,
     /// Samples per axis of the density grid.
     pub grid_size: Option<[usize; 3]>,
     /// Points of the phase function, if they were read from a file.

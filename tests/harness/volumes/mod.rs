@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 pub mod mutate;
 pub mod truth;
+pub mod write;
 
 /// The folder of test volumes, if this machine has one.
 pub fn volumes() -> Option<PathBuf> {

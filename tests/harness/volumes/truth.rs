@@ -212,7 +212,7 @@ fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<St
 
 /// Reads the grid into blocks, and compares them with the array voxel by voxel.
 fn compare_blocks(path: &Path, array: &VoxelGrid, wrong: &mut Vec<String>) {
-    let blocks = match read_sparse_volume(path, Some(&array.name), &Limits::default(), &|_| ()) {
+    let blocks = match read_sparse_volume(path, Some(array.name.as_str()), &Limits::default(), &|_| ()) {
         Ok(Volume::Blocks(blocks)) => blocks,
         Ok(Volume::Array(again)) => {
             if again.values != array.values || again.background == 0.0 && again.channels == 1 {

@@ -1,7 +1,7 @@
 //! The scenes of a benchmark, with their references.
 
 use super::Arguments;
-use crate::cli::{Failure, source};
+use crate::cli::{Failure, options, source};
 use majorant_core::bench::{Entrant, ReferencePlan, Subject};
 use majorant_core::compare::Reference;
 use majorant_core::estimator::{self, Entry};
@@ -31,7 +31,11 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
     let beside = Path::new(name).parent().map(|folder| folder.join("reference.exr"));
     let beside = beside.filter(|file| arguments.reference_seconds.is_none() && file.exists());
     let reference = match arguments.reference.as_ref().or(beside.as_ref()) {
-        Some(file) => ReferencePlan::Given(Box::new(Reference::read(file)?)),
+        Some(file) => {
+            let reference = Reference::read(file)?;
+            options::print_notes(&reference.notices);
+            ReferencePlan::Given(Box::new(reference))
+        }
         None => ReferencePlan::Own {
             estimator: estimator::find("uni-nee-mis")
                 .ok_or_else(|| Failure::Message("Uni+NEE MIS is missing".into()))?,

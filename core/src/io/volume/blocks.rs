@@ -31,6 +31,8 @@ pub struct BlockGrid {
     pub level_set: bool,
     /// NaN or infinite voxels that the reader set to 0.
     pub repaired: u64,
+    /// What is to be known about the file and the choice of the grid, as sentences that name the file.
+    pub notices: Vec<String>,
     /// The first voxel below 0 in the order of an array, its value, and how many there are.
     pub negative: Option<([i32; 3], f32, u64)>,
 }

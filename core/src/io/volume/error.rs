@@ -170,8 +170,8 @@ impl Fault {
     }
 
     /// The same fault with another cure.
-    pub(super) fn with_cure(mut self, cure: &'static str) -> Self {
-        self.cure = Cow::Borrowed(cure);
+    pub(super) fn with_cure(mut self, cure: impl Into<Cow<'static, str>>) -> Self {
+        self.cure = cure.into();
         self
     }
 

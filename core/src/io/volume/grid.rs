@@ -38,6 +38,8 @@ pub struct VoxelGrid {
     pub level_set: bool,
     /// NaN or infinite voxels that the reader set to 0.
     pub repaired: usize,
+    /// What is to be known about the file and the choice of the grid, as sentences that name the file.
+    pub notices: Vec<String>,
     /// Voxels with a value below 0. See [`validate_density`].
     pub negative: usize,
 }
@@ -61,6 +63,7 @@ impl VoxelGrid {
             convention: SampleConvention::CellCentred,
             level_set: false,
             repaired: 0,
+            notices: Vec::new(),
             negative: 0,
         };
         grid.repair_and_count();
@@ -207,6 +210,7 @@ mod tests {
             convention: SampleConvention::VertexCentred,
             level_set: false,
             repaired: 0,
+            notices: Vec::new(),
             negative: 0,
         }
     }

@@ -9,6 +9,7 @@
 //! To add a format: a file with a `read_bytes`, and one line each in the two matches on `Format`.
 
 mod blocks;
+mod choice;
 mod counted;
 mod cursor;
 mod error;
@@ -23,13 +24,14 @@ mod vdb;
 use std::path::Path;
 
 pub use blocks::{BLOCK, BLOCK_EDGE, BlockGrid, ConstantTile, Volume};
+pub use choice::{GridChoice, GridRole};
 pub use error::{Place, VolumeError};
 pub use grid::{SampleConvention, VoxelGrid, validate_density};
 pub use limits::Limits;
 pub use mitsuba_vol::read_mitsuba_vol_bytes;
 pub use npy::read_npy_bytes;
 pub use raw::read_raw_bytes;
-pub use vdb::{Background, GridInfo, info, info_bytes, read_vdb, read_vdb_bytes};
+pub use vdb::{Background, FileInfo, GridInfo, file_info, info, info_bytes, read_vdb, read_vdb_bytes};
 
 use error::Fault;
 
@@ -78,9 +80,9 @@ pub fn read_volume(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<V
 ///
 /// # Errors
 /// As [`read_volume`].
-pub fn read_sparse_volume(
+pub fn read_sparse_volume<'a>(
     path: &Path,
-    grid: Option<&str>,
+    grid: impl Into<GridChoice<'a>>,
     limits: &Limits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
@@ -104,16 +106,17 @@ pub fn read_volume_bytes(
 ///
 /// # Errors
 /// As [`read_volume`].
-pub fn read_sparse_volume_bytes(
+pub fn read_sparse_volume_bytes<'a>(
     bytes: &[u8],
     label: &str,
-    grid: Option<&str>,
+    grid: impl Into<GridChoice<'a>>,
     limits: &Limits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
-    match format_of(bytes, label, grid)? {
+    let grid = grid.into();
+    match format_of(bytes, label, grid.name)? {
         Format::OpenVdb => vdb::read_sparse(bytes, label, grid, limits, watch),
-        other => read_array(other, bytes, label, grid, limits).map(Volume::Array),
+        other => read_array(other, bytes, label, grid.name, limits).map(Volume::Array),
     }
 }
 

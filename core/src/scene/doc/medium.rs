@@ -85,7 +85,8 @@ impl Default for EmissionDoc {
 pub struct GridRef {
     /// The file, relative to the scene file, or `embedded:plume.vdb`.
     pub file: String,
-    /// The grid's name inside the file; by default `density`, else the first that is readable.
+    /// The grid's name inside the file; by default `density` (or `temperature`, for an emission), else the grid that is
+    /// named most like it. A grid of another quantity, by its name or class, is never the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grid: Option<String>,
 }

@@ -41,6 +41,16 @@ impl<'a> Archive<'a> {
     pub(super) fn open(bytes: &'a [u8], limits: &Limits) -> Result<Self, Fault> {
         let mut cursor = Cursor::new(bytes);
         let header = Header::read(&mut cursor)?;
+        Self::find_grids(bytes, cursor, header.clone(), limits).map_err(|fault| header.blamed(fault))
+    }
+
+    /// Reads the list of grids that follows the head.
+    fn find_grids(
+        bytes: &'a [u8],
+        mut cursor: Cursor<'a>,
+        header: Header,
+        limits: &Limits,
+    ) -> Result<Self, Fault> {
         let count = header.grid_count;
         if count > MAX_GRIDS {
             return Err(Fault::too_large(

@@ -52,9 +52,9 @@ impl BlockFormat {
             }
             out.push(if tag == ALL_VALUES { ALL_VALUES } else { NO_MASK_OR_INACTIVE_VALUES });
         }
-        if count == 0 && self.stored.is_half() {
-            // OpenVDB writes nothing for no half floats, where it writes a size of 0 for no
-            // floats. `vdb-rs` expects the size in both cases, so the transcript has it.
+        if count == 0 && self.value_type.is_narrowed(self.stored) {
+            // OpenVDB writes nothing for no narrowed values, where it writes a size of 0 for no
+            // others. `vdb-rs` expects the size in both cases, so the transcript has it.
             if self.compression.codec != Codec::None {
                 out.extend(0_i64.to_le_bytes());
             }

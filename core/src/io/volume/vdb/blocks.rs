@@ -52,6 +52,7 @@ pub(super) fn blocks(sparse: SparseGrid, limits: &Limits) -> Result<BlockGrid, F
         world_from_index: glam::DAffine3::IDENTITY,
         level_set: false,
         repaired: found.iter().map(|f| f.repaired).sum(),
+        notices: Vec::new(),
         negative: None,
     };
     let mut negatives: u64 = found.iter().map(|f| f.negatives).sum();

@@ -47,6 +47,7 @@ pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid,
         convention: SampleConvention::VertexCentred,
         level_set: false,
         repaired: 0,
+        notices: Vec::new(),
         negative: 0,
     };
     grid.repair_and_count();

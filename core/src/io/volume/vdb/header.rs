@@ -13,15 +13,20 @@ pub(crate) const MAGIC: [u8; 8] = *b"\x20BDV\0\0\0\0";
 pub(super) const VERSION_SELECTIVE_COMPRESSION: u32 = 220;
 /// From this version on compression is stored per grid and inactive values may be left out.
 pub(super) const VERSION_NODE_MASK_COMPRESSION: u32 = 222;
-/// The newest version there is (OpenVDB 5 to 12).
-pub(super) const VERSION_NEWEST: u32 = 224;
+/// The newest version that `vdb-rs` knows (OpenVDB 5 to 12).
+pub(super) const VERSION_MULTIPASS_IO: u32 = 224;
+/// The newest version there is (OpenVDB 13): 224 with grids of native half floats.
+pub(super) const VERSION_NEWEST: u32 = 225;
 
 const UUID_BYTES: usize = 36;
 
 /// What the head of the file says about the whole of it.
 #[derive(Debug, Clone)]
 pub(super) struct Header {
+    /// Version of the layout; a file of a newer version is read as [`VERSION_NEWEST`].
     pub(super) version: u32,
+    /// The version that the file states, where it is newer than any that is known.
+    pub(super) newer: Option<u32>,
     /// Whether grids can be found by offset; otherwise they follow one another unmarked.
     pub(super) has_offsets: bool,
     /// Compression flags of all grids; from version 222 on each grid has its own.
@@ -36,7 +41,7 @@ impl Header {
             return Err(Fault::invalid(0, "this is not an OpenVDB file: its magic number is missing"));
         }
         let version = cursor.u32()?;
-        if !(VERSION_SELECTIVE_COMPRESSION..=VERSION_NEWEST).contains(&version) {
+        if version < VERSION_SELECTIVE_COMPRESSION {
             return Err(Fault::unsupported(
                 format!("OpenVDB file version {version}"),
                 format!(
@@ -46,6 +51,8 @@ impl Header {
             )
             .at(MAGIC.len() as u64));
         }
+        let newer = Some(version).filter(|&version| version > VERSION_NEWEST);
+        let version = version.min(VERSION_NEWEST);
         let _library = (cursor.u32()?, cursor.u32()?);
         let has_offsets = cursor.u8()? != 0;
         let compression =
@@ -53,6 +60,25 @@ impl Header {
         cursor.take(UUID_BYTES)?;
         Metadata::read(cursor)?;
         let grid_count = cursor.u32()?;
-        Ok(Self { version, has_offsets, compression, grid_count })
+        Ok(Self { version, newer, has_offsets, compression, grid_count })
+    }
+
+    /// What is to be known about a file of a version that did not exist when this reader was written.
+    pub(super) fn notice(&self) -> Option<String> {
+        let newer = self.newer?;
+        Some(format!(
+            "it has OpenVDB's file version {newer}, and is read as version {VERSION_NEWEST}, the newest one known"
+        ))
+    }
+
+    /// The same fault, with the version as its likely cause if that is newer than any that is known.
+    pub(super) fn blamed(&self, fault: Fault) -> Fault {
+        match self.newer {
+            None => fault,
+            Some(newer) => fault.with_cure(format!(
+                "The file has OpenVDB's file version {newer}, but the newest one known is {VERSION_NEWEST}: save it \
+                 again with OpenVDB 13"
+            )),
+        }
     }
 }

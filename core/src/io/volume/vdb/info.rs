@@ -5,11 +5,13 @@ use std::path::Path;
 use glam::DVec3;
 use serde::Serialize;
 
+use super::super::choice::GridRole;
 use super::super::error::{Fault, VolumeError};
 use super::super::file;
 use super::super::limits::Limits;
 use super::archive::Archive;
-use super::{preflight, read};
+use super::value_type::ValueType;
+use super::{choice, preflight, read};
 
 /// Description of one grid. Fields that a refused grid does not have are left out of its JSON.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -68,6 +70,27 @@ pub enum Background {
     Vector([f32; 3]),
 }
 
+/// Description of an OpenVDB file.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct FileInfo {
+    /// Its grids, in file order.
+    pub grids: Vec<GridInfo>,
+    /// Name of the grid that is read as the density when none is named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density: Option<String>,
+    /// What is to be known about the file, for example which grid is read as the density.
+    pub notices: Vec<String>,
+}
+
+/// Describes an OpenVDB file and every grid in it.
+///
+/// # Errors
+/// The file as a whole cannot be read.
+pub fn file_info(path: &Path) -> Result<FileInfo, VolumeError> {
+    let (limits, label) = (Limits::default(), path.display().to_string());
+    describe(&file::read(path, &limits)?, &label, &limits)
+}
+
 /// Describes every grid of an OpenVDB file, in file order. A grid that cannot be read says why
 /// in [`GridInfo::error`].
 ///
@@ -83,15 +106,19 @@ pub fn info(path: &Path) -> Result<Vec<GridInfo>, VolumeError> {
 /// # Errors
 /// The file as a whole cannot be read.
 pub fn info_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<Vec<GridInfo>, VolumeError> {
+    describe(bytes, label, limits).map(|file| file.grids)
+}
+
+fn describe(bytes: &[u8], label: &str, limits: &Limits) -> Result<FileInfo, VolumeError> {
     let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
-    let describe = |index| {
+    let describe_grid = |index| {
         let mut info = describe_head(&archive, index);
         if let Err(fault) = describe_values(&archive, index, limits, &mut info) {
-            info.error = Some(fault.in_file(label, Some(&info.name)).to_string());
+            info.error = Some(archive.header.blamed(fault).in_file(label, Some(&info.name)).to_string());
         }
         info
     };
-    let mut grids: Vec<_> = (0..archive.grids.len()).map(describe).collect();
+    let mut grids: Vec<_> = (0..archive.grids.len()).map(describe_grid).collect();
     if archive.unreachable > 0 {
         let what = format!(
             "{} more grid(s), which cannot be found behind a grid that is not supported",
@@ -101,7 +128,12 @@ pub fn info_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<Vec<Grid
         let error = Some(fault.in_file(label, None).to_string());
         grids.push(GridInfo { error, ..GridInfo::default() });
     }
-    Ok(grids)
+    let density = choice::most_suitable(&archive, GridRole::Density);
+    let mut notices = Vec::from_iter(archive.header.notice().map(|notice| format!("{label}: {notice}.")));
+    let chosen = density.and_then(|index| choice::notice(&archive, index, GridRole::Density));
+    notices.extend(chosen.map(|notice| format!("{label}: {notice}")));
+    let density = density.map(|index| archive.grids[index].display_name.clone());
+    Ok(FileInfo { grids, density, notices })
 }
 
 /// What stands in front of the tree, as far as it can be read.
@@ -117,6 +149,7 @@ fn describe_head(archive: &Archive, index: usize) -> GridInfo {
     if let Ok(head) = archive.grid_head(grid) {
         info.class = preflight::class(head.metadata.text("class"));
         info.half = head.metadata.boolean("is_saved_as_half_float").unwrap_or(grid.half);
+        info.half |= matches!(ValueType::of_tree(&grid.tree_type), Ok(ValueType::Half));
         info.map = head.map_type;
     }
     info

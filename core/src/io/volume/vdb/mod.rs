@@ -13,16 +13,18 @@
 //! * [`value_type`], [`compression`], [`blosc`], [`block`], [`map`], [`mask`]: the parts of a grid;
 //! * [`tree`], [`preflight`]: the check of every size against the file's length;
 //! * [`transcript`]: the file of our own that `vdb-rs` gets to see;
+//! * [`choice`]: which grid is meant when none is named;
 //! * [`read`], [`sparse`], [`blocks`], [`dense`], [`info`](mod@info): what comes back, and its uses.
 //!
-//! Read: float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
-//! versions 220 to 224 with every compression, half floats, linear maps, instances, tiles, files
+//! Read: half, float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
+//! versions 220 to 225 (newer ones are tried, with a notice) with every compression, half floats, linear maps, instances, tiles, files
 //! without offsets. Refused by name: bool, mask and point grids, other trees, frustum maps.
 
 mod archive;
 mod block;
 mod blocks;
 mod blosc;
+mod choice;
 mod compression;
 mod dense;
 mod descriptor;
@@ -40,26 +42,23 @@ mod value_type;
 
 use std::path::Path;
 
-pub use self::info::{Background, GridInfo, info, info_bytes};
+pub use self::info::{Background, FileInfo, GridInfo, file_info, info, info_bytes};
 pub(super) use header::MAGIC;
 
 use super::blocks::{BlockGrid, Volume};
+use super::choice::GridChoice;
 use super::error::{Fault, VolumeError};
 use super::file;
 use super::grid::VoxelGrid;
 use super::limits::Limits;
 use archive::Archive;
+use choice::Chosen;
 use glam::DAffine3;
-use preflight::Preflight;
 use sparse::SparseGrid;
-use value_type::ValueType;
-
-/// The grid that is read when none is named.
-const DEFAULT_GRID: &str = "density";
 
 /// Reads one grid of an OpenVDB file into a dense grid over its active bounding box.
 ///
-/// Without a name: `density`, or else the first float or double grid that can be read.
+/// Without a name: the grid that is named most like a density, never a temperature, velocity or level set.
 /// Values are converted to `f32`; inactive voxels hold the background; NaN and infinite voxels
 /// are set to 0 and counted. Negative values pass: see
 /// [`validate_density`](super::validate_density).
@@ -81,14 +80,16 @@ pub fn read_vdb_bytes(
     grid: Option<&str>,
     limits: &Limits,
 ) -> Result<VoxelGrid, VolumeError> {
-    read(bytes, label, grid, limits, &|_| (), |sparse, head| head.array(dense::densify(&sparse, limits)?))
+    read(bytes, label, grid.into(), limits, &|_| (), |sparse, head| {
+        head.array(dense::densify(&sparse, limits)?)
+    })
 }
 
 /// As [`read_vdb_bytes`], but into blocks where the background is zero, telling `watch` the share that is done.
 pub(super) fn read_sparse(
     bytes: &[u8],
     label: &str,
-    grid: Option<&str>,
+    grid: GridChoice<'_>,
     limits: &Limits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
@@ -101,22 +102,26 @@ pub(super) fn read_sparse(
     })
 }
 
+/// Class of a grid that holds signed distances.
+const LEVEL_SET: &str = "level set";
+
 /// What stands in front of a grid's tree.
 struct Head {
     name: String,
     world_from_index: DAffine3,
     level_set: bool,
+    notices: Vec<String>,
 }
 
 impl Head {
     fn array(self, voxels: VoxelGrid) -> Result<VoxelGrid, Fault> {
-        let Self { name, world_from_index, level_set } = self;
-        Ok(VoxelGrid { name, world_from_index, level_set, ..voxels })
+        let Self { name, world_from_index, level_set, notices } = self;
+        Ok(VoxelGrid { name, world_from_index, level_set, notices, ..voxels })
     }
 
     fn blocks(self, blocks: BlockGrid) -> Result<BlockGrid, Fault> {
-        let Self { name, world_from_index, level_set } = self;
-        Ok(BlockGrid { name, world_from_index, level_set, ..blocks })
+        let Self { name, world_from_index, level_set, notices } = self;
+        Ok(BlockGrid { name, world_from_index, level_set, notices, ..blocks })
     }
 }
 
@@ -129,19 +134,20 @@ const UNPACKED: f64 = 0.8;
 fn read<T>(
     bytes: &[u8],
     label: &str,
-    grid: Option<&str>,
+    grid: GridChoice<'_>,
     limits: &Limits,
     watch: &dyn Fn(f64),
     then: impl FnOnce(SparseGrid, Head) -> Result<T, Fault>,
 ) -> Result<T, VolumeError> {
     let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
-    let (index, preflight) = choose(&archive, label, grid, limits)?;
+    let Chosen { index, preflight, notices } = choice::choose(&archive, label, grid, limits)?;
     let name = &archive.grids[index].display_name;
     let unpack = || {
         let head = Head {
             name: name.clone(),
             world_from_index: preflight.world_from_index,
-            level_set: preflight.class == "level set",
+            level_set: preflight.class == LEVEL_SET,
+            notices,
         };
         watch(CHECKED);
         let sparse = read::unpack(preflight, &|share| watch(CHECKED + share * (UNPACKED - CHECKED)))?;
@@ -150,41 +156,5 @@ fn read<T>(
         watch(1.0);
         Ok(read)
     };
-    unpack().map_err(|fault: Fault| fault.in_file(label, Some(name)))
-}
-
-/// Finds the grid that is asked for, and checks it.
-fn choose(
-    archive: &Archive,
-    label: &str,
-    grid: Option<&str>,
-    limits: &Limits,
-) -> Result<(usize, Preflight), VolumeError> {
-    let check = |index: usize| {
-        let name = &archive.grids[index].display_name;
-        preflight::check(archive, index, limits)
-            .map(|preflight| (index, preflight))
-            .map_err(|fault| fault.in_file(label, Some(name)))
-    };
-    let wanted = grid.unwrap_or(DEFAULT_GRID);
-    if let Some(index) = archive.grids.iter().position(|grid| grid.display_name == wanted) {
-        return check(index);
-    }
-    let no_such_grid =
-        |what: String| VolumeError::NoSuchGrid { file: label.to_owned(), what, available: archive.names() };
-    if grid.is_some() {
-        return Err(no_such_grid(format!("it has no grid named \"{wanted}\"")));
-    }
-    let mut first_error = None;
-    for (index, grid) in archive.grids.iter().enumerate() {
-        if !ValueType::of_tree(&grid.tree_type).is_ok_and(ValueType::is_real_scalar) {
-            continue;
-        }
-        match check(index) {
-            Ok(found) => return Ok(found),
-            Err(error) => first_error = first_error.or(Some(error)),
-        }
-    }
-    let nothing = || no_such_grid("none of its grids is a float grid".to_owned());
-    Err(first_error.unwrap_or_else(nothing))
+    unpack().map_err(|fault: Fault| archive.header.blamed(fault).in_file(label, Some(name)))
 }

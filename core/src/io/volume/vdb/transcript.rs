@@ -6,7 +6,7 @@
 //! are always the same, the masks that our walk has checked, and the value chunks, byte for byte.
 
 use super::block::BlockFormat;
-use super::header::{MAGIC, VERSION_NODE_MASK_COMPRESSION};
+use super::header::{MAGIC, VERSION_MULTIPASS_IO, VERSION_NODE_MASK_COMPRESSION};
 
 /// Name of the only grid in a transcript.
 pub(super) const GRID_NAME: &str = "grid";
@@ -23,7 +23,7 @@ impl Transcript {
     pub(super) fn begin(format: &BlockFormat, capacity: usize) -> Self {
         let mut bytes = Vec::with_capacity(capacity);
         bytes.extend(MAGIC);
-        for word in [format.version, 0, 0] {
+        for word in [format.version.min(VERSION_MULTIPASS_IO), 0, 0] {
             bytes.extend(word.to_le_bytes()); // file version, library version
         }
         bytes.push(1); // has offsets

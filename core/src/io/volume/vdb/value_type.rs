@@ -6,6 +6,8 @@ use super::super::error::Fault;
 /// The value type of a tree, as named in its type (`Tree_float_5_4_3`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ValueType {
+    /// Half floats in memory as in the file (OpenVDB 13), background and tiles included.
+    Half,
     Float,
     Double,
     Int32,
@@ -41,6 +43,7 @@ impl ValueType {
             ));
         };
         Ok(match value {
+            "half" => Self::Half,
             "float" => Self::Float,
             "double" => Self::Double,
             "int32" => Self::Int32,
@@ -76,6 +79,7 @@ impl ValueType {
     /// How blocks store this type. The half flag concerns real numbers only.
     pub(super) fn stored(self, half: bool) -> Stored {
         match (self, half) {
+            (Self::Half, _) => Stored::F16,
             (Self::Float, false) => Stored::F32,
             (Self::Double, false) => Stored::F64,
             (Self::Float | Self::Double, true) => Stored::F16,
@@ -90,20 +94,26 @@ impl ValueType {
     /// 1 or 3.
     pub(super) fn channels(self) -> usize {
         match self {
-            Self::Float | Self::Double | Self::Int32 | Self::Int64 => 1,
+            Self::Half | Self::Float | Self::Double | Self::Int32 | Self::Int64 => 1,
             Self::Vec3s | Self::Vec3d => 3,
         }
     }
 
+    /// Whether saving as `stored` narrows the values, as the half flag does to all real numbers but half floats.
+    pub(super) fn is_narrowed(self, stored: Stored) -> bool {
+        stored.is_half() && self != Self::Half
+    }
+
     /// Whether this is a single real number per voxel, as a density is.
     pub(super) fn is_real_scalar(self) -> bool {
-        matches!(self, Self::Float | Self::Double)
+        matches!(self, Self::Half | Self::Float | Self::Double)
     }
 
     /// Reads one full-precision value; a scalar is repeated in all three channels.
     pub(super) fn read(self, cursor: &mut Cursor) -> Result<[f32; 3], Fault> {
         let mut number = || {
             Ok::<f32, Fault>(match self {
+                Self::Half => half::f16::from_bits(cursor.u16()?).to_f32(),
                 Self::Float | Self::Vec3s => cursor.f32()?,
                 Self::Double | Self::Vec3d => cursor.f64()? as f32,
                 Self::Int32 => cursor.i32()? as f32,
@@ -141,6 +151,7 @@ mod tests {
     #[test]
     fn tree_types_are_read_or_refused_by_name() {
         assert_eq!(ValueType::of_tree("Tree_float_5_4_3").unwrap(), ValueType::Float);
+        assert_eq!(ValueType::of_tree("Tree_half_5_4_3").unwrap(), ValueType::Half);
         assert_eq!(ValueType::of_tree("Tree_vec3d_5_4_3").unwrap(), ValueType::Vec3d);
         for refused in ["Tree_float_4_3_3", "Tree_bool_5_4_3", "Tree_ptdataidx32_5_4_3", "", "Tree_"] {
             assert!(ValueType::of_tree(refused).is_err(), "{refused}");
@@ -151,5 +162,6 @@ mod tests {
     fn half_flag_leaves_integers_alone() {
         assert_eq!(ValueType::Int32.stored(true), Stored::I32);
         assert_eq!(ValueType::Double.stored(true), Stored::F16);
+        assert_eq!([true, false].map(|flag| ValueType::Half.stored(flag)), [Stored::F16; 2]);
     }
 }
