@@ -5,7 +5,7 @@ use super::{Failure, options, print_line, source};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, scene_file};
 use majorant_core::scene::{Limits, SceneDoc};
-use majorant_core::session::{Job, Role, Session, Status, ViewId};
+use majorant_core::session::{Ending, Job, Role, Session, Status, ViewId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -18,7 +18,8 @@ A limit that is given (--spp, --seconds) replaces both limits of the scene.
 --set 'medium.extinction=\"430:8, 540:40\"'.
 
 --json ends with one line: estimator, mode, width, height, spp, seconds, cpu_seconds, paths, lookups,
-mean [r,g,b], non_finite, threads, seed.")]
+mean [r,g,b], non_finite, threads, seed, ended_by: spp, seconds, cpu_seconds, relative_error, or black or
+not_finite where a picture of that kind has no relative error and no other limit.")]
 pub(super) struct Arguments {
     /// A scene file, or the name of an embedded scene.
     scene: String,
@@ -29,8 +30,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "ID")]
     estimator: Option<String>,
     /// Samples per pixel.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    spp: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    spp: Option<u64>,
     /// Stop after this many seconds, at the end of a pass; every pixel gets at least one sample.
     #[arg(long, value_name = "S")]
     seconds: Option<f32>,
@@ -88,14 +89,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     let doc = Arc::new(doc);
-    let snapshot = render(Arc::clone(&doc), source.resources)?;
+    let (snapshot, ending) = render(Arc::clone(&doc), source.resources)?;
     for path in &arguments.output {
         writer(path)?(path, &snapshot, &doc)?;
     }
     if arguments.json {
-        print_line(&summary(&snapshot, &doc).to_string())?;
+        print_line(&summary(&snapshot, ending, &doc).to_string())?;
     }
-    Ok(())
+    ending.and_then(Ending::warning).map_or(Ok(()), |warning| Err(Failure::NoError(warning)))
 }
 
 type Writer = fn(&Path, &Snapshot, &SceneDoc) -> Result<(), export::ExportError>;
@@ -112,7 +113,10 @@ fn writer(path: &Path) -> Result<Writer, Failure> {
 /// Between two looks at how far the reading of a file is.
 const READING: Duration = Duration::from_millis(50);
 
-fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc<Snapshot>, Failure> {
+fn render(
+    doc: Arc<SceneDoc>,
+    library: majorant_core::io::Library,
+) -> Result<(Arc<Snapshot>, Option<Ending>), Failure> {
     let progress = Progress::new(doc.render.spp, doc.render.seconds);
     // One waiting wake-up is enough: the state is read anew at each.
     let (wake, woken) = mpsc::sync_channel::<()>(1);
@@ -134,7 +138,7 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
             (Status::Finished, Some(snapshot)) => {
                 progress.finish();
                 options::print_notes(&state.notices);
-                return Ok(snapshot);
+                return Ok((snapshot, state.ending));
             }
             // Reading a file wakes nobody.
             (Status::Building, _) => match woken.recv_timeout(READING) {
@@ -148,7 +152,7 @@ fn render(doc: Arc<SceneDoc>, library: majorant_core::io::Library) -> Result<Arc
     }
 }
 
-fn summary(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
+fn summary(snapshot: &Snapshot, ending: Option<Ending>, doc: &SceneDoc) -> serde_json::Value {
     serde_json::json!({
         "estimator": doc.estimator.id,
         "mode": doc.estimator.mode,
@@ -163,5 +167,6 @@ fn summary(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
         "non_finite": snapshot.tally.non_finite,
         "threads": snapshot.threads,
         "seed": doc.render.seed,
+        "ended_by": ending.map(Ending::id),
     })
 }
