@@ -178,13 +178,13 @@ fn a_black_picture_ends_a_render_that_waits_for_its_error() {
     let output = majorant(&["render", scene.to_str().unwrap(), "-o", png.to_str().unwrap(), "--json"]);
     assert_eq!(output.status.code(), Some(4), "{}", text(&output.stderr));
     assert!(text(&output.stderr).contains("black"), "{}", text(&output.stderr));
-    let json: serde_json::Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    let json: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
     assert_eq!((json["ended_by"].as_str(), json["spp"].as_u64()), (Some("black"), Some(256)));
     assert!(png.exists());
     // With light the error itself ends it; with samples to do, those.
     let lit = ["render", "first-light", "--set", "film.width=8", "film.height=6", "--json"];
     let by = |more: &[&str]| {
-        let json: serde_json::Value = serde_json::from_str(&succeeds(&[&lit[..], more].concat())).unwrap();
+        let json: Value = serde_json::from_str(&succeeds(&[&lit[..], more].concat())).unwrap();
         json["ended_by"].as_str().unwrap().to_owned()
     };
     assert_eq!(by(&["--spp", "3"]), "spp");

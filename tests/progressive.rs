@@ -140,7 +140,7 @@ fn looking_at_paths_does_not_raise_the_majorants_of_the_film() {
         session.wait_picture(VIEW, |_, s| s.spp == spp);
         let probe = session.state(VIEW).probe.unwrap();
         let found = probe.violations().exceeded_cells();
-        probe.samples((30, 18), 1000..1200, Wanted::ALWAYS);
+        assert_eq!(probe.samples((30, 18), 1000..1200, Wanted::ALWAYS).len(), 200);
         let other = probe.under(majorant_core::estimator::find("spectral-mis").unwrap());
         other.strategies(Split::Technique, 500..502, Wanted::ALWAYS).unwrap();
         assert_eq!(probe.violations().exceeded_cells(), found, "after {spp} samples");

@@ -56,7 +56,8 @@ pub struct Row {
     pub f: [Product; 4],
     /// How likely unidirectional sampling makes it.
     pub uni: [Product; 4],
-    /// How likely next-event estimation makes it, but for the density of the light.
+    /// How likely next-event estimation makes it, but for the density of the light. It means something in a connection and from
+    /// the turn at a vertex on: at a vertex that was only reached it is still that of the way there.
     pub nee: [Product; 4],
     /// The numbers that the estimator keeps of this branch, after the event; `None` where it keeps none, as of a
     /// connection whose weight has no density.
@@ -305,14 +306,16 @@ impl Bookkeeper {
         let Some(found) = self.found.take() else { return };
         let books = self.now();
         let factor = match event {
-            Event::Null => found.null,
-            Event::Scattering => found.scattering,
-            Event::Absorption => [1.0; 4],
+            Event::Null => Some(found.null),
+            Event::Scattering => Some(found.scattering),
+            Event::Absorption => None,
         };
         books.nulls += u32::from(event == Event::Null);
-        times(&mut books.f, &factor);
-        times(&mut books.uni, &[density; 4]);
-        times(&mut books.nee, &[density; 4]);
+        if let Some(factor) = factor {
+            times(&mut books.f, &factor);
+            times(&mut books.uni, &[density; 4]);
+            times(&mut books.nee, &[density; 4]);
+        }
         self.outcome(i, event, u, found);
     }
 
