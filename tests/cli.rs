@@ -171,6 +171,30 @@ fn seconds_end_a_render() {
     assert!(json["seconds"].as_f64().unwrap() >= 0.3 && json["spp"].as_u64().unwrap() >= 1);
 }
 
+/// An error that can never be known ends a render, with a picture, an exit code of its own and a word about it.
+#[test]
+fn a_black_picture_ends_a_render_that_waits_for_its_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let png = directory.path().join("black.png");
+    let scene = directory.path().join("black.toml");
+    let source = "majorant = 1\n[film]\nwidth = 8\nheight = 6\n[render]\nrelative_error = 0.1\n";
+    std::fs::write(&scene, source).unwrap();
+    let output = majorant(&["render", scene.to_str().unwrap(), "-o", png.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(4), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("black"), "{}", text(&output.stderr));
+    let json: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert_eq!((json["ended_by"].as_str(), json["spp"].as_u64()), (Some("black"), Some(256)));
+    assert!(png.exists());
+    // With light the error itself ends it; with samples to do, those.
+    let lit = ["render", "first-light", "--set", "film.width=8", "film.height=6", "--json"];
+    let by = |more: &[&str]| {
+        let json: Value = serde_json::from_str(&succeeds(&[&lit[..], more].concat())).unwrap();
+        json["ended_by"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(by(&["--spp", "3"]), "spp");
+    assert_eq!(by(&["--seconds", "0.1"]), "seconds");
+}
+
 #[test]
 fn info_describes_volumes_and_scenes() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests");

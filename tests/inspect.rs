@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::estimator::{PathIndex, REGISTRY, Settings};
-use majorant_core::inspect::{Ledger, Recording, Split, Strategies, StrategyPlan};
+use majorant_core::inspect::{
+    Branch, Ledger, Product, Recording, Row, Split, Step, Strategies, StrategyPlan,
+};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::math::Sampler;
 use majorant_core::scene::{
@@ -11,7 +13,7 @@ use majorant_core::scene::{
     WhenExceeded, build,
 };
 use majorant_core::session::ViewId;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::{Note, Wanted};
 use majorant_tests::session::{Watched, job};
 
 /// Scenes in which paths meet everything: colours, grids, grey, surfaces, a glow, a majorant that is exceeded.
@@ -97,6 +99,113 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
     for (entry, defined) in REGISTRY.iter().zip(defined) {
         let has = entry.id != "mitsuba2-volpath";
         assert_eq!(defined > 1500, has, "{}: {defined}", entry.id);
+    }
+}
+
+/// What an estimator should keep at a row by the definition of f and the densities, under the names that it uses; `None`
+/// for a number that has no definition there.
+fn kept_by_definition(row: &Row, name: &str, i: usize) -> Option<f64> {
+    // The hero's density of the technique that makes the branch.
+    let made_with = if row.branch == Branch::Connection { row.nee[0].ln() } else { row.uni[0].ln() };
+    let by_contribution = |density: Product, f: Product| density.over(f.ln()) * f.over(f.ln()).signum();
+    Some(match name {
+        "f/P" => row.f[i].over(made_with),
+        "p_uni/P" => row.uni[i].over(made_with),
+        "p_nee/P" => row.nee[i].over(made_with),
+        "f" => row.f[i].over(0.0),
+        "p_uni" => row.uni[i].over(0.0),
+        "p_nee" => row.nee[i].over(0.0),
+        "p_uni/f1" => by_contribution(row.uni[i], row.f[0]),
+        "p_nee/f1" => by_contribution(row.nee[i], row.f[0]),
+        "p_uni1/f" => by_contribution(row.uni[0], row.f[i]),
+        // Throughput over density; flights enter f as weights that are divided by theirs already.
+        "φ" => row.f[i].over(row.uni[0].ln()),
+        _ => return None,
+    })
+}
+
+/// At every event of a thousand random paths per estimator and scene, what the estimator keeps is what the definition says
+/// after that event: not that before it, and not another branch's.
+#[test]
+fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
+    let mut scenes = scenes();
+    let plume = scenes.iter().find(|(name, _)| name.contains("plume")).unwrap().1.clone();
+    for bookkeeping in [Bookkeeping::ApartF32, Bookkeeping::ApartF64, Bookkeeping::Pairwise] {
+        let mut doc = plume.clone();
+        doc.estimator.bookkeeping = bookkeeping;
+        doc.estimator.roulette_depth = Some(1);
+        scenes.push((format!("{bookkeeping:?}"), doc));
+    }
+    let mut estimated = plume;
+    estimated.estimator.transmittance = "residual-ratio".into();
+    estimated.estimator.roulette_depth = Some(1);
+    scenes.push(("transmittance estimated".into(), estimated));
+
+    let mut checked = [0u32; 16];
+    for (name, doc) in scenes {
+        let scene = frozen(&doc);
+        let settings = Settings::new(&doc.estimator, doc.render.seed);
+        for (which, entry) in REGISTRY.iter().enumerate() {
+            let throughput = entry.id == "mitsuba2-volpath";
+            let mut random = Sampler::new(23, which as u64, 0);
+            for _ in 0..1000 {
+                let place = random.next_2d();
+                let (x, y) = ((place.x * 64.0) as u32, (place.y * 48.0) as u32);
+                let at = PathIndex { x, y, sample: u64::from((random.next_1d() * 64.0) as u32) };
+                let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+                let ledger = Ledger::new(&recording);
+                let count = ledger.carried.count();
+                let mut turned = false;
+                for (i, row) in ledger.rows.iter().enumerate() {
+                    let what = format!("{name}, {}, {at:?}, row {i}: {row:?}", entry.id);
+                    if row.branch == Branch::Path {
+                        match row.step {
+                            Step::Leave(..) => turned = true,
+                            Step::Scatter | Step::Reflect => turned = false,
+                            _ => {}
+                        }
+                    }
+                    if throughput && row.branch != Branch::Path {
+                        assert_eq!(row.kept, None, "{what}");
+                        continue;
+                    }
+                    // A walk of its own that has hit something adds nothing and keeps nothing.
+                    if row.branch == Branch::LightWalk && row.step == Step::Scatter {
+                        continue;
+                    }
+                    let kept = row.kept.unwrap_or_else(|| panic!("nothing is kept: {what}"));
+                    let on_a_flight = matches!(row.step, Step::Collision | Step::Null | Step::Absorb)
+                        || !matches!(recording.notes[row.note], Note::Flight { .. })
+                            && matches!(row.step, Step::Scatter | Step::Exit);
+                    if throughput && on_a_flight || row.branch == Branch::Angle {
+                        continue;
+                    }
+                    for (number, values) in kept.names.iter().zip(&kept.values) {
+                        // Light is sampled at a turn: between a vertex and that p_nee means nothing.
+                        if number.contains("nee") && row.branch != Branch::Connection && !turned {
+                            continue;
+                        }
+                        let expected: Vec<_> =
+                            (0..count).filter_map(|c| kept_by_definition(row, number, c)).collect();
+                        let largest = expected.iter().fold(0.0f64, |l, v| l.max(v.abs()));
+                        for (value, expected) in values.iter().zip(expected) {
+                            let (value, expected) = (f64::from(*value), expected);
+                            // Beyond what single precision holds there is nothing to compare.
+                            if !(1e-30..1e30).contains(&largest) || !largest.is_finite() {
+                                continue;
+                            }
+                            checked[which] += 1;
+                            let tolerance = 3e-3 * expected.abs() + 1e-5 * largest;
+                            let off = (value - expected).abs();
+                            assert!(off <= tolerance, "{number} {value}, by definition {expected}: {what}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    for (entry, checked) in REGISTRY.iter().zip(checked) {
+        assert!(checked > 20_000, "{}: {checked}", entry.id);
     }
 }
 

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::film::Snapshot;
+use majorant_core::inspect::Split;
 use majorant_core::scene::{DensityDoc, Limits, SceneDoc, WhenExceeded};
 use majorant_core::session::ViewId;
 use majorant_core::spectrum::SpectrumDoc;
@@ -12,7 +13,7 @@ use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
 const VIEW: ViewId = ViewId(0);
 
 /// A scene whose majorants start at a tenth of what would bound.
-fn doc(threads: usize, spp: u32, when_exceeded: WhenExceeded) -> SceneDoc {
+fn doc(threads: usize, spp: u64, when_exceeded: WhenExceeded) -> SceneDoc {
     let mut doc = small_doc(threads, spp);
     doc.medium.majorant.factor = 0.1;
     doc.medium.majorant.resolution = Some(8);
@@ -58,7 +59,7 @@ fn the_error_vanishes_where_that_of_clamping_stays() {
     let raised = error(256, WhenExceeded::Progressive);
     assert!(clamped.abs() > 0.05 && raised.abs() < 0.2 * clamped.abs(), "{clamped} {raised}");
     // What is left comes from the first samples: those after the sixteenth are as good as any.
-    let [first, all] = [16, 256].map(|spp| f64::from(spp) * of(spp, WhenExceeded::Progressive));
+    let [first, all] = [16, 256].map(|spp: u64| spp as f64 * of(spp, WhenExceeded::Progressive));
     let later = (all - first) / 240.0 / truth - 1.0;
     assert!(later.abs() < 0.01, "{later}");
 }
@@ -75,7 +76,7 @@ fn a_homogeneous_medium_is_found_out_by_the_first_sample() {
     session.submit(VIEW, job(&doc, false));
     let raised = session.wait_finished(VIEW);
     let probe = session.state(VIEW).probe.unwrap();
-    assert_eq!(probe.scene().violations.exceeded_cells(), 0);
+    assert_eq!(probe.violations().exceeded_cells(), 0);
     // One sample of 64 is clamped.
     let error = brightness(&raised) / brightness(&finished(&bounded)) - 1.0;
     assert!(error.abs() < 0.02, "{error}");
@@ -95,4 +96,54 @@ fn a_probe_traces_every_sample_with_the_majorants_of_its_time() {
             assert!((mean - shown).abs() <= 1e-5 * shown.abs().max(1e-3), "{x} {y}: {mean} {shown}");
         }
     }
+}
+
+/// Parts and evidence trace the film's own paths, each with the majorants that it had: the parts sum to the film, which the
+/// parts of any one scene would not.
+#[test]
+fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
+    const SPP: u64 = 21;
+    let session = Watched::new();
+    session.submit(VIEW, job(&doc(2, SPP, WhenExceeded::Progressive), false));
+    let film = session.wait_finished(VIEW);
+    let probe = session.state(VIEW).probe.unwrap();
+    assert!(film.tally.exceeded > 0);
+    for split in Split::ALL {
+        let parts = probe.strategies(split, 0..SPP, Wanted::ALWAYS).unwrap();
+        for (i, mean) in film.mean.iter().enumerate() {
+            for (c, shown) in mean.iter().map(|x| f64::from(*x)).enumerate() {
+                let of = || parts.layers.iter().map(|layer| f64::from(layer.mean[i][c]));
+                let (sum, size) = (of().sum::<f64>(), of().map(f64::abs).sum::<f64>());
+                assert!((sum - shown).abs() <= 2e-6 * size, "{} {i}: {sum} {shown}", split.name());
+            }
+        }
+    }
+    // The heaviest samples are the film's, too.
+    let evidence = probe.evidence(None, None, Wanted::ALWAYS).unwrap();
+    for heavy in &evidence.heaviest.named {
+        let recorded = probe.record(heavy.at, Wanted::ALWAYS).estimate.rgb;
+        let traced = probe.path(heavy.at.x, heavy.at.y, heavy.at.sample, Wanted::ALWAYS).rgb;
+        assert_eq!(recorded, traced);
+        let pixel = film.mean[(heavy.at.y * 61 + heavy.at.x) as usize];
+        assert!(heavy.at.sample >= SPP || recorded.element_sum() > pixel.iter().sum(), "{heavy:?}");
+    }
+}
+
+/// What is looked at, and how, does not change what the film finds: samples far ahead of it, other estimators.
+#[test]
+fn looking_at_paths_does_not_raise_the_majorants_of_the_film() {
+    let undisturbed = finished(&doc(2, 21, WhenExceeded::Progressive));
+    let session = Watched::new();
+    session.submit(VIEW, job(&doc(2, 1, WhenExceeded::Progressive), false));
+    for spp in [1, 2, 3, 21] {
+        session.set_limits(VIEW, Limits::samples(spp));
+        session.wait_picture(VIEW, |_, s| s.spp == spp);
+        let probe = session.state(VIEW).probe.unwrap();
+        let found = probe.violations().exceeded_cells();
+        assert_eq!(probe.samples((30, 18), 1000..1200, Wanted::ALWAYS).len(), 200);
+        let other = probe.under(majorant_core::estimator::find("spectral-mis").unwrap());
+        other.strategies(Split::Technique, 500..502, Wanted::ALWAYS).unwrap();
+        assert_eq!(probe.violations().exceeded_cells(), found, "after {spp} samples");
+    }
+    assert_same(&undisturbed, &session.wait_finished(VIEW));
 }

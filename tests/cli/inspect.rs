@@ -26,6 +26,34 @@ fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
     for (sum, told) in sum.iter().zip(json["sum"].as_array().unwrap()) {
         assert_eq!(f64::from(*sum), told.as_f64().unwrap());
     }
+    // What is kept at an event is what the definition says after it: the ratios of both agree at every row.
+    let lanes =
+        |value: &Value| value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
+    let (mut held, mut turned) = (0, false);
+    for row in json["rows"].as_array().unwrap() {
+        let kept = row["kept"].as_array().unwrap();
+        // Light is sampled at a turn: between a vertex and that p_nee means nothing.
+        match row["event"].as_str().unwrap() {
+            "turns" => turned = true,
+            "scatters" | "is reflected" => turned = false,
+            _ => {}
+        }
+        if row["branch"] == "path" && !turned {
+            continue;
+        }
+        assert_eq!((kept[1][0].as_str(), kept[2][0].as_str()), (Some("p_uni/P"), Some("p_nee/P")));
+        for ((uni, nee), (ln_uni, ln_nee)) in lanes(&kept[1][1])
+            .iter()
+            .zip(lanes(&kept[2][1]))
+            .zip(lanes(&row["ln_p_uni"]).iter().zip(lanes(&row["ln_p_nee"])))
+        {
+            if *uni > 1e-20 && nee > 1e-20 {
+                held += 1;
+                assert!((nee.ln() - uni.ln() - (ln_nee - ln_uni)).abs() < 5e-3, "{row}");
+            }
+        }
+    }
+    assert!(held > 40, "{held}");
     // The brightest of the first 64, which is what any other of them is not.
     let film =
         |json: &Value| json["film"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).sum::<f64>();
@@ -58,4 +86,26 @@ fn what_cannot_be_taken_apart_is_explained() {
     assert!(fails(&["path", "first-light", "--pixel", "7"], 2).contains("COLUMN,ROW"));
     assert!(fails(&["parts", "first-light", "--by", "luck"], 2).contains("technique, order, nulls, hero"));
     assert!(fails(&["parts", "first-light", "--estimator", "magic"], 1).contains("not an estimator"));
+}
+
+/// Majorants that rise while a film is rendered have risen for its replayed path and for its parts as well.
+#[test]
+fn rising_majorants_are_those_of_the_film() {
+    let keys = [
+        "--set",
+        "film.width=24",
+        "film.height=18",
+        "medium.majorant.factor=0.1",
+        "medium.majorant.resolution=8",
+        "medium.majorant.when_exceeded=\"progressive\"",
+    ];
+    let of = |command: &[&str]| json(&[command, &["--json"], &keys[..]].concat());
+    let film = of(&["render", "first-light", "--spp", "21"]);
+    let parts = of(&["parts", "first-light", "--spp", "21"]);
+    let number = |v: &Value| v.as_f64().unwrap();
+    for c in 0..3 {
+        let sum: f64 = parts["parts"].as_array().unwrap().iter().map(|p| number(&p["mean"][c])).sum();
+        let mean = number(&film["mean"][c]);
+        assert!((sum - mean).abs() < 1e-6 * mean, "{sum} {mean}");
+    }
 }

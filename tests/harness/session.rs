@@ -12,7 +12,7 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A small embedded scene with a grid, rendered by so many threads up to a limit.
-pub fn small_doc(threads: usize, spp: u32) -> SceneDoc {
+pub fn small_doc(threads: usize, spp: u64) -> SceneDoc {
     let text = embedded::find("first-light").unwrap().toml;
     let mut doc = scene_file::parse(text, "first-light").unwrap();
     (doc.film.width, doc.film.height) = (61, 37);

@@ -44,8 +44,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S", value_parser = parse_seconds, default_value = "2")]
     seconds: f64,
     /// Samples per pixel of each run, instead of seconds.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), conflicts_with = "seconds")]
-    spp: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "seconds")]
+    spp: Option<u64>,
     /// Runs of each estimator.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(2..))]
     repeats: u32,

@@ -44,8 +44,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "S", value_parser = plan::parse_seconds)]
     seconds: Option<f32>,
     /// Samples per pixel per estimator.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(i64::from(LEAST_SAMPLES)..))]
-    spp: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
+    spp: Option<u64>,
     /// An EXR picture of the same scene that errors are measured against.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["reference_estimator", "reference_spp"])]
     reference: Option<PathBuf>,
@@ -54,8 +54,8 @@ pub(super) struct Arguments {
     reference_estimator: Option<String>,
     /// Samples per pixel of the rendered reference.
     #[arg(long, value_name = "N", requires = "reference_estimator",
-          value_parser = clap::value_parser!(u32).range(i64::from(LEAST_SAMPLES)..))]
-    reference_spp: Option<u32>,
+          value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
+    reference_spp: Option<u64>,
     /// The estimator, or the view (A, B, …), that speed-ups are relative to.
     #[arg(long, value_name = "ID")]
     baseline: Option<String>,
@@ -97,7 +97,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let bar = progress::bar(1000);
     let finished = compare::run(&doc, source.resources, |p| {
         bar.set_position((1000.0 * p.fraction) as u64);
-        let spp = p.spp.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+        let spp = p.spp.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
         bar.set_message(format!("{spp} spp"));
     })?;
     bar.finish_and_clear();

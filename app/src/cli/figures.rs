@@ -39,12 +39,12 @@ pub(super) struct Arguments {
     volume: Vec<OwnVolume>,
     /// Samples per pixel of the panels.
     #[arg(long, value_name = "N", default_value_t = 64,
-          value_parser = clap::value_parser!(u32).range(i64::from(LEAST_SAMPLES)..))]
-    spp: u32,
+          value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
+    spp: u64,
     /// Samples per pixel of the references.
     #[arg(long, value_name = "N", default_value_t = 1024,
-          value_parser = clap::value_parser!(u32).range(i64::from(LEAST_SAMPLES)..))]
-    reference_spp: u32,
+          value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
+    reference_spp: u64,
     /// Size of every picture in pixels; by default a fraction of each scene's own.
     #[arg(long, value_name = "WxH", value_parser = options::parse_size)]
     size: Option<[u32; 2]>,

@@ -43,7 +43,8 @@ Examples:
   majorant figures all -o report                  the report's figures, and the study that it calls for
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
-Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window."
+Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window,
+4 an error that was asked for is not defined: the picture is black, or has no finite value."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -83,6 +84,8 @@ pub(crate) enum Failure {
     Message(String),
     /// There is no display to open a window on.
     NoDisplay(String),
+    /// The picture is there, and has no relative error.
+    NoError(&'static str),
 }
 
 impl<E: std::error::Error> From<E> for Failure {
@@ -112,6 +115,7 @@ pub fn main() -> ExitCode {
         Ok(()) => return ExitCode::SUCCESS,
         Err(Failure::Message(message)) => (1, message),
         Err(Failure::NoDisplay(message)) => (3, message),
+        Err(Failure::NoError(message)) => (4, message.to_owned()),
     };
     // A closed pipe is the only way for this to fail, and then nobody reads it.
     let _ = writeln!(io::stderr(), "majorant: {message}");

@@ -1,7 +1,7 @@
 //! `majorant parts`: an image taken apart.
 
 use super::{Failure, print_line, source};
-use majorant_core::inspect::{Split, Strategies, StrategyPlan};
+use majorant_core::inspect::Split;
 use majorant_core::io::export;
 use majorant_core::transport::Wanted;
 use std::path::PathBuf;
@@ -20,8 +20,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "WHAT", default_value = "technique", value_parser = parse_split)]
     by: Split,
     /// Samples per pixel.
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(2..))]
-    spp: u32,
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(2..))]
+    spp: u64,
     /// A directory for a picture of each part, as shown.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -37,10 +37,10 @@ fn parse_split(text: &str) -> Result<Split, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source::Frozen { doc, scene, entry, settings } = arguments.traced.frozen()?;
-    let samples = (0, u64::from(arguments.spp));
-    let plan = StrategyPlan::whole(&scene, entry.kernel, &settings, samples);
-    let Some(parts) = Strategies::render(&plan, arguments.by, Wanted::ALWAYS) else { return Ok(()) };
+    let frozen = arguments.traced.frozen()?;
+    let probe = frozen.probe(arguments.spp)?;
+    let parts = probe.strategies(arguments.by, 0..arguments.spp, Wanted::ALWAYS);
+    let Some(parts) = parts else { return Ok(()) };
     let shares = parts.variance_shares(|_, _| true);
     let share = |k: usize| shares.as_ref().map(|s| s[k]);
     if arguments.json {
@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     for layer in &parts.layers {
         let path = directory.join(format!("{}.png", layer.name.replace(' ', "-")));
-        export::write_png_of(&path, &layer.mean, [parts.width, parts.height], &doc.view)?;
+        export::write_png_of(&path, &layer.mean, [parts.width, parts.height], &frozen.doc.view)?;
     }
     Ok(())
 }

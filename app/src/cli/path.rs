@@ -1,9 +1,9 @@
 //! `majorant path`: one path of an image, event by event.
 
 use super::{Failure, print_line, source};
-use majorant_core::estimator::{Entry, PathIndex, Settings};
-use majorant_core::inspect::{Ledger, Recording, Row};
-use majorant_core::scene::Scene;
+use majorant_core::estimator::PathIndex;
+use majorant_core::inspect::{Ledger, Row};
+use majorant_core::session::Probe;
 use majorant_core::spectrum::Carried;
 use majorant_core::transport::Wanted;
 use std::fmt::Write;
@@ -18,7 +18,8 @@ contributes (f) and how likely unidirectional sampling (p_uni) and next-event es
 as they are defined. Where light is added: what is added at each component, and what the balance heuristic
 says that it should be.
 
---json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components.")]
+--json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components. Every
+number of a row, those that the estimator keeps itself (kept) included, is the one after the row's event.")]
 pub(super) struct Arguments {
     #[command(flatten)]
     traced: source::Traced,
@@ -44,16 +45,19 @@ fn parse_pixel(text: &str) -> Result<(u32, u32), String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source::Frozen { scene, entry, settings, .. } = arguments.traced.frozen()?;
+    let frozen = arguments.traced.frozen()?;
     let (x, y) = arguments.pixel;
-    if x >= scene.width || y >= scene.height {
-        let size = format!("{} × {}", scene.width, scene.height);
+    let film = &frozen.doc.film;
+    if x >= film.width || y >= film.height {
+        let size = format!("{} × {}", film.width, film.height);
         return Err(Failure::Message(format!("pixel {x},{y} is outside of the image of {size}")));
     }
-    let sample =
-        arguments.sample.unwrap_or_else(|| brightest(&scene, entry, &settings, (x, y), arguments.of));
+    let entry = frozen.entry;
+    let samples = arguments.sample.map_or(arguments.of.max(1), |sample| sample.saturating_add(1));
+    let probe = frozen.probe(samples)?;
+    let sample = arguments.sample.unwrap_or_else(|| brightest(&probe, (x, y), samples));
     let at = PathIndex { x, y, sample };
-    let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+    let recording = probe.record(at, Wanted::ALWAYS);
     let ledger = Ledger::new(&recording);
     if arguments.json {
         return print_line(&json(&ledger, at, entry.id).to_string());
@@ -73,12 +77,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     print_line(&format!("on the film: {} {} {} (linear sRGB)", film.x, film.y, film.z))
 }
 
-fn brightest(scene: &Scene, entry: &Entry, settings: &Settings, (x, y): (u32, u32), of: u64) -> u64 {
-    let brightness = |sample: u64| {
-        let at = PathIndex { x, y, sample };
-        (entry.kernel)(scene, settings, at, Wanted::ALWAYS.into()).rgb.element_sum()
-    };
-    let samples = (0..of.max(1)).map(|sample| (sample, brightness(sample)));
+fn brightest(probe: &Probe, (x, y): (u32, u32), of: u64) -> u64 {
+    let brightness = |sample: u64| probe.path(x, y, sample, Wanted::ALWAYS).rgb.element_sum();
+    let samples = (0..of).map(|sample| (sample, brightness(sample)));
     samples.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(sample, _)| sample)
 }
 

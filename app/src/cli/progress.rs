@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 /// Shows how far a render is, by samples or by seconds.
 pub(super) struct Progress {
     bar: ProgressBar,
-    spp: Option<u32>,
+    spp: Option<u64>,
     seconds: Option<f32>,
 }
 
@@ -27,12 +27,12 @@ pub(super) fn bar(length: u64) -> ProgressBar {
 }
 
 impl Progress {
-    pub fn new(spp: Option<u32>, seconds: Option<f32>) -> Self {
+    pub fn new(spp: Option<u64>, seconds: Option<f32>) -> Self {
         Self { bar: bar(1000), spp, seconds }
     }
 
     pub fn show(&self, snapshot: &Snapshot) {
-        let by_samples = self.spp.map_or(0.0, |spp| f64::from(snapshot.spp) / f64::from(spp));
+        let by_samples = self.spp.map_or(0.0, |spp| snapshot.spp as f64 / spp as f64);
         let by_time = self.seconds.map_or(0.0, |s| snapshot.seconds / f64::from(s));
         let done = by_samples.max(by_time).clamp(0.0, 1.0);
         self.bar.set_position((done * 1000.0) as u64);

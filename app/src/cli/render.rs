@@ -5,7 +5,7 @@ use super::{Failure, options, print_line, source};
 use majorant_core::film::Snapshot;
 use majorant_core::io::{export, scene_file};
 use majorant_core::scene::{Limits, SceneDoc};
-use majorant_core::session::{Job, Role, Session, Status, ViewId, ViewState};
+use majorant_core::session::{Ending, Job, Role, Session, Status, ViewId, ViewState};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -19,7 +19,8 @@ A limit that is given (--spp, --seconds) replaces both limits of the scene.
 
 --json ends with one line: estimator, mode, width, height, spp, seconds, cpu_seconds, paths, lookups,
 mean [r,g,b], non_finite, threads, seed, density_grid (the name of the grid that was read), notices [what
-reading the files chose or repaired].")]
+reading the files chose or repaired], ended_by: spp, seconds, cpu_seconds, relative_error, or black or not_finite where
+a picture of that kind has no relative error and no other limit.")]
 pub(super) struct Arguments {
     /// A scene file, or the name of an embedded scene.
     scene: String,
@@ -30,8 +31,8 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "ID")]
     estimator: Option<String>,
     /// Samples per pixel.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    spp: Option<u32>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    spp: Option<u64>,
     /// Stop after this many seconds, at the end of a pass; every pixel gets at least one sample.
     #[arg(long, value_name = "S")]
     seconds: Option<f32>,
@@ -90,13 +91,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     let doc = Arc::new(doc);
     let (snapshot, state) = render(Arc::clone(&doc), source.resources)?;
+    let ending = state.ending;
     for path in &arguments.output {
         writer(path)?(path, &snapshot, &doc)?;
     }
     if arguments.json {
         print_line(&summary(&snapshot, &doc, &state).to_string())?;
     }
-    Ok(())
+    ending.and_then(Ending::warning).map_or(Ok(()), |warning| Err(Failure::NoError(warning)))
 }
 
 type Writer = fn(&Path, &Snapshot, &SceneDoc) -> Result<(), export::ExportError>;
@@ -170,5 +172,6 @@ fn summary(snapshot: &Snapshot, doc: &SceneDoc, state: &ViewState) -> serde_json
         "seed": doc.render.seed,
         "density_grid": state.scene.as_ref().map(|scene| &scene.density_grid).filter(|name| !name.is_empty()),
         "notices": state.notices,
+        "ended_by": state.ending.map(Ending::id),
     })
 }

@@ -3,8 +3,10 @@
 use super::{Failure, options};
 use majorant_core::estimator::{self, Entry, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
-use majorant_core::scene::{Scene, SceneDoc, build};
+use majorant_core::scene::{SceneDoc, build};
+use majorant_core::session::{Probe, probe_of_film};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scene with the library that resolves its files.
 pub(super) struct Source {
@@ -28,9 +30,16 @@ pub(super) struct Traced {
 /// A scene ready for paths, with what traces them.
 pub(super) struct Frozen {
     pub doc: SceneDoc,
-    pub scene: Scene,
     pub entry: &'static Entry,
-    pub settings: Settings,
+    probe: Probe,
+}
+
+impl Frozen {
+    /// What the film's first samples are traced with, as many as `samples` per pixel. Majorants that are raised by what the
+    /// film finds are raised here as well.
+    pub fn probe(&self, samples: u64) -> Result<Probe, Failure> {
+        Ok(probe_of_film(&self.probe, self.doc.render.threads, samples)?)
+    }
 }
 
 impl Traced {
@@ -46,7 +55,8 @@ impl Traced {
             .ok_or_else(|| Failure::Message(format!("`{}` is not an estimator", doc.estimator.id)))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
         let scene = build(&doc, &mut source.resources)?;
-        Ok(Frozen { doc, scene, entry, settings })
+        let probe = Probe::new(Arc::new(scene), entry.kernel, settings);
+        Ok(Frozen { doc, entry, probe })
     }
 }
 

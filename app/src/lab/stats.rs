@@ -7,7 +7,7 @@ use majorant_core::session::ViewState;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stats {
     /// Samples per pixel in the newest picture.
-    pub spp: u32,
+    pub spp: u64,
     /// Seconds of rendering.
     pub seconds: f64,
     /// Samples per pixel and second.
@@ -35,12 +35,12 @@ impl Stats {
             return Self::default();
         };
         let per = |amount: f64, of: f64| (amount > 0.0 && of > 0.0).then(|| amount / of);
-        let (spp, seconds) = (f64::from(snapshot.spp), snapshot.seconds);
+        let (spp, seconds) = (snapshot.spp as f64, snapshot.seconds);
         let spp_per_second = per(spp, seconds);
         let lookups = snapshot.tally.lookups as f64;
-        let by_samples = limits.spp.map(|limit| {
-            (spp / f64::from(limit.max(1)), spp_per_second.map(|rate| (f64::from(limit) - spp) / rate))
-        });
+        let by_samples = limits
+            .spp
+            .map(|limit| (spp / limit.max(1) as f64, spp_per_second.map(|rate| (limit as f64 - spp) / rate)));
         let by_time =
             limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
         let limits = [by_samples, by_time];
@@ -99,7 +99,7 @@ mod tests {
     use majorant_core::session::Status;
     use std::sync::Arc;
 
-    fn state(spp: u32, seconds: f64) -> ViewState {
+    fn state(spp: u64, seconds: f64) -> ViewState {
         let snapshot = Snapshot {
             generation: 3,
             width: 2,
@@ -111,7 +111,7 @@ mod tests {
             coarse: None,
             seconds,
             cpu_seconds: seconds,
-            tally: Tally { paths: 2 * u64::from(spp), lookups: 20 * u64::from(spp), ..Tally::default() },
+            tally: Tally { paths: 2 * spp, lookups: 20 * spp, ..Tally::default() },
             threads: 1,
             cost_error: 0.0,
             target: String::new(),
@@ -119,6 +119,7 @@ mod tests {
         ViewState {
             generation: 3,
             status: Status::Rendering,
+            ending: None,
             loading: None,
             snapshot: Some(Arc::new(snapshot)),
             notices: Vec::new(),

@@ -6,7 +6,7 @@ use crate::theme::Palette;
 use crate::view::developer::Sight;
 use crate::view::readout;
 use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui, vec2};
-use majorant_core::session::Status;
+use majorant_core::session::{Ending, Status};
 
 impl LabApp {
     pub(super) fn status_ui(&self, ui: &mut Ui) {
@@ -63,6 +63,11 @@ impl LabApp {
                 (palette.accent, format!("Rendering   {}{limit} spp{rate}", stats.spp))
             }
             Status::Paused => (palette.warning, format!("Paused at {} spp", stats.spp)),
+            Status::Finished if self.state.ending.and_then(Ending::warning).is_some() => {
+                let what = if self.state.ending == Some(Ending::Black) { "black" } else { "not finite" };
+                let text = format!("Stopped   all {what} after {} spp: no relative error", stats.spp);
+                (palette.warning, text)
+            }
             Status::Finished => {
                 (palette.good, format!("Finished   {} spp in {}", stats.spp, duration(stats.seconds)))
             }

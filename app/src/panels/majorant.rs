@@ -73,7 +73,7 @@ impl Panel for Majorant {
                 );
             });
         }
-        if let Some(violations) = cx.state.probe.as_ref().map(|probe| &probe.scene().violations) {
+        if let Some(violations) = cx.state.probe.as_ref().map(|probe| probe.violations()) {
             let count = violations.exceeded_cells();
             if count > 0 {
                 let tip = "Cells in which a flight has found σt larger than μ since μ was set or raised. M shows them";

@@ -6,7 +6,7 @@ use crate::lab::{Command, Latency};
 use crate::theme::Palette;
 use crate::widgets::{Value, badge, callout, hint, optional, row};
 use egui::{Align2, Button, Color32, RichText, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
-use majorant_core::session::Status;
+use majorant_core::session::{Ending, Status};
 
 /// See the [module](self).
 pub struct Render;
@@ -66,6 +66,7 @@ fn progress_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 6.0), Sense::hover());
     ui.painter().rect_filled(rect, 3.0, palette.well);
     let colour = match cx.state.status {
+        Status::Finished if cx.state.ending.and_then(Ending::warning).is_some() => palette.warning,
         Status::Finished => palette.good,
         Status::Failed(_) => palette.error,
         Status::Paused => palette.warning,
@@ -139,6 +140,9 @@ fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
             located.iter().map(|n| format!("pixel ({}, {}), sample {}", n.x, n.y, n.sample)).collect();
         let tip = format!("Left out of the picture, never hidden. First of them:\n{}", places.join("\n"));
         badge(ui, palette.error, &format!("{} samples not finite", cx.stats.non_finite)).on_hover_text(tip);
+    }
+    if let Some(warning) = cx.state.ending.and_then(Ending::warning) {
+        callout(ui, palette.warning, warning);
     }
     for notice in &cx.state.notices {
         callout(ui, palette.warning, notice);

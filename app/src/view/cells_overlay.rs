@@ -11,6 +11,7 @@ use egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextStyle,
 use glam::Vec3;
 use majorant_core::medium::MajorantCells;
 use majorant_core::scene::{Camera, Scene};
+use majorant_core::session::Probe;
 
 /// Finer grids get no lines between cells: there would be more line than cell.
 const MOST_LINED: usize = 32;
@@ -22,10 +23,11 @@ pub fn paint(
     canvas: Rect,
     view: ImageView,
     image: Vec2,
-    scene: &Scene,
+    probe: &Probe,
     camera: &Camera,
     depth: f32,
 ) {
+    let scene = probe.scene();
     let Some(cells) = scene.medium.majorant_cells() else { return };
     let painter = ui.painter_at(canvas);
     let slice = Slice::facing(scene, camera, &cells, depth);
@@ -44,7 +46,7 @@ pub fn paint(
         let cell = slice.cell(i, j);
         let Some(tightness) = cells.tightness(cell) else { continue };
         let first = mesh.vertices.len() as u32;
-        let excess = scene.violations.largest(cell);
+        let excess = probe.violations().largest(cell);
         violated |= excess > 1.0;
         let colour = if excess > 1.0 { violation(excess) } else { colour(tightness).gamma_multiply(ALPHA) };
         for corner in [a, b, c, d] {

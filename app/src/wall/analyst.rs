@@ -272,7 +272,7 @@ impl Memory {
                 *traced = Traced { generation: view.snapshot.generation, samples: Arc::default() };
             }
             let first = traced.samples.len() as u64;
-            let last = u64::from(view.snapshot.spp).min(first + TRACED).min(KEPT);
+            let last = view.snapshot.spp.min(first + TRACED).min(KEPT);
             if first < last {
                 let more = probe.samples(at, first..last, wanted);
                 Arc::make_mut(&mut traced.samples).extend(more);

@@ -234,7 +234,7 @@ fn reference_menu_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
                 .response
                 .accessible_name("Estimator of the reference");
             let tip = "It stops at so many samples per pixel";
-            optional(ui, "Stop at", (spp, opened_spp), 4096, "no limit", tip, |v: Value<'_, u32>| {
+            optional(ui, "Stop at", (spp, opened_spp), 4096, "no limit", tip, |v: Value<'_, u64>| {
                 v.unit("spp").range(1.0..=1e9)
             });
             let tip = "It stops when its standard error is this share of the image's mean";

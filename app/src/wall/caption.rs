@@ -192,7 +192,7 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
     }
     let Some(slot) = wall.slots().get(view) else { return };
     if width > SAMPLES_FROM || (width > ERROR_FROM && analysis.standing(&label(view)).is_none()) {
-        ui.add(small(format!("{} spp", count(slot.stats.spp.into())), palette.weak));
+        ui.add(small(format!("{} spp", count(slot.stats.spp as f64)), palette.weak));
     }
 }
 

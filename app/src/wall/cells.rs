@@ -166,7 +166,7 @@ impl Wall {
             (self.majorant_slice, self.slots().get(view).and_then(|s| s.state.probe.as_ref()), sight)
         {
             let eye = Camera::new(&camera, doc.film.width, doc.film.height);
-            cells_overlay::paint(&child, rect, outcome.view, film, probe.scene(), &eye, depth);
+            cells_overlay::paint(&child, rect, outcome.view, film, probe, &eye, depth);
         }
         outcome
     }

@@ -10,8 +10,8 @@ use std::sync::Arc;
 /// A path that is replayed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathQuestion {
-    /// Which submission of which view.
-    pub of: (usize, u64),
+    /// Which submission of which view, and how often its majorants were raised.
+    pub of: (usize, u64, usize),
     /// The pixel.
     pub pixel: [usize; 2],
     /// The sample.
@@ -69,8 +69,8 @@ impl PathState {
 /// An image that is taken apart.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartsQuestion {
-    /// Which submission of which view.
-    pub of: (usize, u64),
+    /// Which submission of which view, and how often its majorants were raised.
+    pub of: (usize, u64, usize),
     /// By what.
     pub split: Split,
     /// Samples per pixel.
@@ -182,8 +182,8 @@ impl RayState {
 /// A region whose noise is explained.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseQuestion {
-    /// Which submission of which view.
-    pub of: (usize, u64),
+    /// Which submission of which view, and how often its majorants were raised.
+    pub of: (usize, u64, usize),
     /// The box, if one is drawn.
     pub region: Option<[u32; 4]>,
 }

@@ -5,7 +5,7 @@ use majorant_core::compare::{Reference, label};
 use majorant_core::estimator;
 use majorant_core::film::Snapshot;
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
-use majorant_core::session::{Role, Session, Status, ViewId};
+use majorant_core::session::{Ending, Role, Session, Status, ViewId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -117,7 +117,7 @@ impl ReferenceKeeper {
                     });
                 let known = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
                 if !known {
-                    let origin = |spp: u32| format!("{origin}, {spp} spp");
+                    let origin = |spp: u64| format!("{origin}, {spp} spp");
                     self.picture = usable.as_ref().map(|s| Arc::new(Reference::of(s, origin(s.spp))));
                     self.made_from = usable;
                 }
@@ -159,7 +159,9 @@ impl ReferenceKeeper {
                 let mut state = plain(&format!("{}, {} spp", name(estimator), slot.stats.spp));
                 match &slot.state.status {
                     Status::Failed(problem) => state.problem = Some(problem.clone()),
-                    Status::Finished => {}
+                    Status::Finished => {
+                        state.problem = slot.state.ending.and_then(Ending::warning).map(str::to_owned);
+                    }
                     _ => state.progress = Some(progress(doc, slot)),
                 }
                 state

@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     /// Samples per pixel.
-    pub spp: u32,
+    pub spp: u64,
     /// Seconds from start to end.
     pub wall_seconds: f64,
     /// CPU seconds of all threads.
@@ -138,7 +138,7 @@ impl Row {
             estimator,
             repeats: trials.len(),
             threads,
-            spp: mean(|t| f64::from(t.spp)),
+            spp: mean(|t| t.spp as f64),
             wall_seconds: mean(|t| t.wall_seconds),
             cpu_seconds: mean(|t| t.cpu_seconds),
             paths_per_second: mean(|t| t.paths as f64 / t.wall_seconds),

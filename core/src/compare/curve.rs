@@ -36,7 +36,7 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     /// Samples per pixel.
-    pub spp: u32,
+    pub spp: u64,
     /// CPU seconds of path tracing.
     pub cpu_seconds: f64,
     /// Look-ups per pixel.
@@ -65,7 +65,7 @@ impl Checkpoint {
     #[must_use]
     pub fn at(&self, axis: Axis) -> f64 {
         match axis {
-            Axis::Samples => f64::from(self.spp),
+            Axis::Samples => self.spp as f64,
             Axis::Seconds => self.cpu_seconds,
             Axis::Lookups => self.lookups,
         }
@@ -105,7 +105,7 @@ impl Checkpoints {
         if snapshot.generation != self.generation {
             *self = Self { generation: snapshot.generation, kept: Vec::new() };
         }
-        let due = self.kept.last().is_none_or(|c| f64::from(snapshot.spp) >= Self::RATIO * f64::from(c.spp));
+        let due = self.kept.last().is_none_or(|c| snapshot.spp as f64 >= Self::RATIO * c.spp as f64);
         if snapshot.spp > 0 && snapshot.coarse.is_none() && due {
             self.kept.push(Arc::new(Checkpoint::of(snapshot)));
         }

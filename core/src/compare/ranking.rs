@@ -78,7 +78,7 @@ pub struct Standing {
     /// Its name for people.
     pub name: String,
     /// Samples per pixel.
-    pub spp: u32,
+    pub spp: u64,
     /// CPU seconds of path tracing.
     pub cpu_seconds: f64,
     /// Seconds of rendering.

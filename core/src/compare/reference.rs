@@ -209,7 +209,7 @@ mod tests {
             mean,
             standard_error,
             noise,
-            spp: spp as u32,
+            spp,
             coarse: None,
             seconds: 1.0,
             cpu_seconds: 1.0,

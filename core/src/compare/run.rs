@@ -14,12 +14,12 @@ use crate::estimator;
 use crate::film::Snapshot;
 use crate::io::Library;
 use crate::scene::{Limits, ReferenceDoc, SceneDoc};
-use crate::session::{Job, Role, Session, Status, ViewId, ViewState};
+use crate::session::{Ending, Job, Role, Session, Status, ViewId, ViewState};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 
 /// Fewer samples per pixel say nothing about their own noise.
-pub const LEAST_SAMPLES: u32 = 3;
+pub const LEAST_SAMPLES: u64 = 3;
 
 /// Why a comparison came to no end.
 #[derive(Debug, thiserror::Error)]
@@ -63,7 +63,7 @@ pub struct Progress {
     /// From 0 to 1, over everything that is rendered.
     pub fraction: f64,
     /// Samples per pixel of every view, in their order; those of a rendered reference come last.
-    pub spp: Vec<u32>,
+    pub spp: Vec<u64>,
 }
 
 /// A comparison at its end.
@@ -103,7 +103,9 @@ pub fn run(
     let mut running = Running::start(doc, docs, background, library)?;
     let ended = running.wait(&mut progress)?;
     for state in &ended {
-        notes.extend(state.notices.iter().filter(|n| !notes.contains(n)).cloned().collect::<Vec<_>>());
+        let said = state.ending.and_then(Ending::warning).map(str::to_owned);
+        let said = state.notices.iter().cloned().chain(said);
+        notes.extend(said.filter(|n| !notes.contains(n)).collect::<Vec<_>>());
     }
     let snapshots: Vec<Arc<Snapshot>> = ended.into_iter().filter_map(|s| s.snapshot).collect();
     let views = running.contenders.iter().zip(&running.checkpoints).zip(&snapshots).enumerate();
@@ -224,7 +226,7 @@ fn fraction(limits: &Limits, state: &ViewState) -> f64 {
         return 1.0;
     }
     let of = |limit: Option<f32>, had: f64| limit.map_or(0.0, |limit| had / f64::from(limit));
-    let by_samples = limits.spp.map_or(0.0, |spp| f64::from(snapshot.spp) / f64::from(spp));
+    let by_samples = limits.spp.map_or(0.0, |spp| snapshot.spp as f64 / spp as f64);
     // Errors fall with the root of the samples.
     let by_error = limits.relative_error.map_or(0.0, |e| (f64::from(e) / snapshot.relative_error()).powi(2));
     let nearest = by_samples
@@ -273,7 +275,7 @@ mod tests {
         assert_eq!(experiment.reference.as_ref().unwrap().estimate().noise.unwrap()[0].samples, 64);
         for (_, view) in &experiment.views {
             assert_eq!(view.snapshot.spp, 8);
-            let spp: Vec<u32> = view.checkpoints.kept().iter().map(|c| c.spp).collect();
+            let spp: Vec<u64> = view.checkpoints.kept().iter().map(|c| c.spp).collect();
             assert!(spp.len() >= 3 && spp[0] == 1, "{spp:?}");
         }
         for standing in experiment.rank(MEASURES.iter().collect()) {

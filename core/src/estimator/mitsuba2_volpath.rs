@@ -83,10 +83,12 @@ impl Estimator for Mitsuba2Volpath {
         let mut radiance = C::Radiance::BLACK;
         let mut phi = Sampled::ONE;
         let mut vertices = 0;
+        trace.tell(move || Note::Weights(Kept::throughput(phi)));
         loop {
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.sample_distance(&ray, surface.t(), trace);
             phi *= flight.weight;
+            trace.tell(move || Note::Weights(Kept::throughput(phi)));
 
             let vertex = if let Some(point) = flight.scattered_at {
                 world.scattering_vertex(point, &ray)
@@ -134,6 +136,7 @@ impl Estimator for Mitsuba2Volpath {
                 trace.tell(move || Note::LightWalkEnds);
             }
             phi *= turn.value / turn.density;
+            trace.tell(move || Note::Weights(Kept::throughput(phi)));
 
             if vertices >= world.settings.first_roulette() {
                 let q = phi.max_component().clamp(0.05, 1.0);
@@ -143,6 +146,7 @@ impl Estimator for Mitsuba2Volpath {
                     return radiance;
                 }
                 phi *= 1.0 / q;
+                trace.tell(move || Note::Weights(Kept::throughput(phi)));
             }
         }
     }

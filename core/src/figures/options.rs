@@ -6,9 +6,9 @@ use std::path::PathBuf;
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Samples per pixel of panels; the report's are 64.
-    pub spp: u32,
+    pub spp: u64,
     /// Samples per pixel of references; the report's are 1024.
-    pub reference_spp: u32,
+    pub reference_spp: u64,
     /// Columns and rows of every picture, instead of each figure's own.
     pub size: Option<[u32; 2]>,
     /// Worker threads; one per core if absent.

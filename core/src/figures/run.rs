@@ -150,7 +150,7 @@ fn cost(strip: &Strip, options: &Options) -> Cost {
     /// One majorant for the whole medium is slower to fly through than local ones.
     const GLOBAL_MAJORANT: f64 = 3.0;
     let [w, h] = options.size.unwrap_or(strip.size).map(f64::from);
-    let paths = |spp: u32| w * h * f64::from(spp) / PATHS_PER_SECOND;
+    let paths = |spp: u64| w * h * spp as f64 / PATHS_PER_SECOND;
     let runs = options.study.map_or(0.0, |s| s.seconds * f64::from(s.repeats)) * VARIANTS.len() as f64;
     Cost {
         panels: GLOBAL_MAJORANT * strip.panels.len() as f64 * paths(options.spp),

@@ -9,7 +9,7 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Zeroable)]
 pub struct Pixel {
     /// Samples added.
-    pub count: u32,
+    pub count: u64,
     /// Evaluations of the medium's coefficients for all samples, those left out too.
     pub lookups: u64,
     /// Mean of the samples.
@@ -27,7 +27,7 @@ pub struct Pixel {
 impl Pixel {
     /// Adds one sample. The caller has checked that it is finite.
     pub fn add(&mut self, sample: [f32; 3]) {
-        let before = f64::from(self.count);
+        let before = self.count as f64;
         self.count += 1;
         let n = before + 1.0;
         let (mut grey, mut squares) = (0.0, 0.0);
@@ -58,7 +58,7 @@ impl Pixel {
         if self.count < 2 {
             return [f64::INFINITY; 3];
         }
-        let n = f64::from(self.count);
+        let n = self.count as f64;
         self.m2.map(|m2| m2 / (n * (n - 1.0)))
     }
 
@@ -68,7 +68,7 @@ impl Pixel {
         if self.count < 2 {
             return f64::INFINITY;
         }
-        let n = f64::from(self.count);
+        let n = self.count as f64;
         self.chroma_m2 / (3.0 * n * (n - 1.0))
     }
 
@@ -79,7 +79,7 @@ impl Pixel {
         if self.count < 3 {
             return f64::INFINITY;
         }
-        let n = f64::from(self.count);
+        let n = self.count as f64;
         self.grey_m3 / (n * (n - 1.0) * (n - 2.0))
     }
 
@@ -92,7 +92,7 @@ impl Pixel {
         if self.count < 3 {
             return f64::INFINITY;
         }
-        let n = f64::from(self.count);
+        let n = self.count as f64;
         let additions = n - 1.0;
         let sum = self.m2.iter().sum::<f64>() / 3.0;
         let scatter = (self.growth_m2 - sum * sum / additions).max(0.0);
@@ -121,6 +121,21 @@ mod tests {
             assert!((v - expected).abs() < 1e-12);
         }
         assert_eq!(Pixel::default().variance_of_mean()[0], f64::INFINITY);
+    }
+
+    #[test]
+    fn more_than_32_bits_of_samples_are_counted() {
+        let billions = 1u64 << 33;
+        // Half of the samples are 1, half 3.
+        let m2 = [billions as f64; 3];
+        let mut pixel = Pixel { count: billions, mean: [2.0; 3], m2, ..Pixel::default() };
+        pixel.add([2.0; 3]);
+        assert_eq!(pixel.count, billions + 1);
+        let expected = 1.0 / billions as f64;
+        assert!((pixel.variance_of_mean()[0] / expected - 1.0).abs() < 1e-6);
+        assert!(pixel.third_moment_of_mean().is_finite() && pixel.variance_of_variance().is_finite());
+        // As much memory as with 32 bits, which were padded.
+        assert_eq!(size_of::<Pixel>(), 88);
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub struct Snapshot {
     /// What else is known about every pixel's noise; empty for a coarse preview.
     pub noise: Vec<Noise>,
     /// Samples per pixel in it; 0 for a coarse preview.
-    pub spp: u32,
+    pub spp: u64,
     /// In a coarse preview, the edge in pixels of the blocks that share one sample.
     pub coarse: Option<u32>,
     /// Seconds of rendering, pauses left out.
@@ -94,7 +94,7 @@ pub struct Noise {
     /// Standard error of the variance of the mean.
     pub variance_error: f32,
     /// Samples in the mean.
-    pub samples: u32,
+    pub samples: u64,
     /// Look-ups of the medium for all of them.
     pub lookups: f32,
 }
@@ -111,8 +111,8 @@ pub struct Images {
 }
 
 impl Snapshot {
-    /// Root mean square of the standard error over the image's mean: how noisy the whole is. Pixels without a
-    /// finite value are left out.
+    /// Root mean square of the standard error over the size of the image's mean: how noisy the whole is. Pixels without a
+    /// finite value are left out; infinite where the mean is zero, or no pixel has a value.
     #[must_use]
     pub fn relative_error(&self) -> f64 {
         let (mut variance, mut mean, mut known) = (0.0, 0.0, 0u64);
@@ -121,7 +121,7 @@ impl Snapshot {
                 (variance, mean, known) = (variance + f64::from(*e).powi(2), mean + f64::from(*m), known + 1);
             }
         }
-        if known == 0 { f64::INFINITY } else { (variance * known as f64).sqrt() / mean }
+        if mean == 0.0 { f64::INFINITY } else { (variance * known as f64).sqrt() / mean.abs() }
     }
 
     /// The image's mean colour.

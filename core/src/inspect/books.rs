@@ -2,7 +2,7 @@
 
 use super::product::{Product, Products, times};
 use crate::spectrum::Lanes;
-use crate::transport::Found;
+use crate::transport::{Found, Kept};
 
 /// What a path contributes and how likely each technique makes it, as products over its events so far.
 #[derive(Clone, Copy)]
@@ -15,6 +15,10 @@ pub(super) struct Books {
     pub nulls: u32,
     /// Whether all of it has densities.
     pub defined: bool,
+    /// What the estimator keeps itself; `None` where it keeps nothing, or has not told yet.
+    pub kept: Option<Kept>,
+    /// The row of the event after which it has still to tell.
+    pub awaiting: Option<usize>,
 }
 
 impl Books {
@@ -25,6 +29,8 @@ impl Books {
         order: 0,
         nulls: 0,
         defined: true,
+        kept: None,
+        awaiting: None,
     };
 
     pub fn pass(&mut self, optical_depth: &Lanes) {

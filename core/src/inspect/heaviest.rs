@@ -106,7 +106,7 @@ fn weigh(plan: &StrategyPlan<'_>, [x, y]: [u32; 2], wanted: Wanted<'_>, to: &mut
     let mut samples = Vec::with_capacity(plan.spp());
     for sample in plan.samples.0..plan.samples.1 {
         let at = PathIndex { x, y, sample };
-        let estimate = (plan.kernel)(plan.scene, plan.settings, at, wanted.into());
+        let estimate = plan.trace(at, wanted.into());
         if !wanted.yes() {
             return None;
         }

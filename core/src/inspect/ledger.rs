@@ -7,7 +7,7 @@
 //!   with the balance heuristics, light adds   Le_j f_j / mean_i (p_uni,i + p_nee,i)
 //! ```
 //!
-//! Beside them stand the numbers that the estimator keeps itself, rescaled or not.
+//! Beside them stand the numbers that the estimator keeps itself, rescaled or not, as they are after the same event.
 
 use super::Recording;
 use super::books::Books;
@@ -56,9 +56,11 @@ pub struct Row {
     pub f: [Product; 4],
     /// How likely unidirectional sampling makes it.
     pub uni: [Product; 4],
-    /// How likely next-event estimation makes it, but for the density of the light.
+    /// How likely next-event estimation makes it, but for the density of the light. It means something in a connection and from
+    /// the turn at a vertex on: at a vertex that was only reached it is still that of the way there.
     pub nee: [Product; 4],
-    /// The numbers that the estimator keeps, as last seen.
+    /// The numbers that the estimator keeps of this branch, after the event; `None` where it keeps none, as of a
+    /// connection whose weight has no density.
     pub kept: Option<Kept>,
     /// Light that is added.
     pub credit: Option<Credit>,
@@ -89,7 +91,8 @@ struct Bookkeeper {
     /// Whether light is shared by the balance heuristics, whose result can be written down.
     balanced: bool,
     found: Option<Found>,
-    kept: Option<Kept>,
+    /// The first row of the path's last ray.
+    ray_row: usize,
     rows: Vec<Row>,
 }
 
@@ -106,7 +109,7 @@ impl Ledger {
             carried: Carried::Grey,
             balanced: recording.settings.path.heuristics == Heuristics::default(),
             found: None,
-            kept: None,
+            ray_row: 0,
             rows: Vec::new(),
         };
         let (mut sum, mut film) = ([0.0; 4], Vec3::ZERO);
@@ -159,67 +162,99 @@ impl Bookkeeper {
             f: books.f,
             uni: books.uni,
             nee: books.nee,
-            kept: self.kept,
+            kept: books.kept,
             credit: None,
         });
         let last = self.rows.len() - 1;
         &mut self.rows[last]
     }
 
+    /// The row of an event after which the estimator keeps other numbers, which it has still to tell.
+    fn event(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
+        let next = self.rows.len();
+        let books = self.now();
+        (books.kept, books.awaiting) = (None, Some(next));
+        self.row(note, step, point, numbers)
+    }
+
+    /// What the estimator keeps of the branch at hand, after the last event of it.
+    fn keeps(&mut self, kept: Kept) {
+        let books = self.now();
+        books.kept = Some(kept);
+        let Some(row) = books.awaiting.take() else { return };
+        if self.ray.awaiting == Some(row) {
+            (self.ray.kept, self.ray.awaiting) = (Some(kept), None);
+        }
+        if let Some(row) = self.rows.get_mut(row) {
+            row.kept = Some(kept);
+        }
+    }
+
+    /// The path goes on along a new ray.
+    fn begin_ray(&mut self) {
+        (self.ray, self.ray_row) = (self.path, self.rows.len());
+    }
+
     fn read(&mut self, i: usize, note: &Note) {
         match *note {
             Note::Camera { ray, jitter, u, carried } => {
                 self.carried = carried;
-                self.row(i, Step::Camera, Some(ray.origin), &[jitter.x, jitter.y, u]);
+                self.event(i, Step::Camera, Some(ray.origin), &[jitter.x, jitter.y, u]);
+                self.begin_ray();
             }
             Note::Collision(found, kept) => self.collide(i, found, kept),
-            Note::Exit { passed } => {
+            Note::Exit { passed, kept } => {
                 self.now().pass(&passed);
+                self.keeps(kept);
                 self.row(i, Step::Exit, None, &[]);
             }
+            Note::Weights(kept) => self.keeps(kept),
             Note::Drawn { event, u } => self.drawn(i, event, u),
             Note::DrawnForAll { event, u, density } => self.drawn_for_all(i, event, u, density),
             Note::Flight { scattered_at, weight } => {
-                // Its collisions are behind that weight.
+                // Its collisions are behind that weight: on the way the path's own has not changed.
+                for row in self.rows.iter_mut().skip(self.ray_row).filter(|row| row.branch == Branch::Path) {
+                    row.kept = self.ray.kept;
+                }
                 self.path = Books { defined: false, order: self.path.order, ..self.ray };
                 times(&mut self.path.f, &weight);
                 let step = if scattered_at.is_some() { Step::Scatter } else { Step::Exit };
-                self.row(i, step, scattered_at, &[]);
+                self.event(i, step, scattered_at, &[]);
             }
             Note::Surface { point, albedo } => {
                 times(&mut self.now().f, &albedo);
-                self.row(i, Step::Reflect, Some(point), &[]);
+                self.event(i, Step::Reflect, Some(point), &[]);
             }
             Note::Vertex(kept) => {
                 self.path.order += 1;
-                self.kept = Some(kept);
-                if let Some(row) = self.rows.last_mut() {
-                    row.kept = Some(kept);
-                }
+                self.keeps(kept);
             }
             Note::Roulette { u, q } => {
-                let survives = u < q;
-                if survives {
+                if u < q {
                     times(&mut self.path.f, &[1.0 / q; 4]);
+                    self.event(i, Step::Survive(q), None, &[u]);
+                    // Where roulette comes after the turn, the ray has its factor too.
+                    self.begin_ray();
+                } else {
+                    self.row(i, Step::Die(q), None, &[u]);
                 }
-                self.row(i, if survives { Step::Survive(q) } else { Step::Die(q) }, None, &[u]);
             }
             Note::Leave { ray, u, value, density } => {
                 self.path.leave(value, density);
-                self.ray = self.path;
-                self.row(i, Step::Leave(value, density), Some(ray.origin), &u.to_array());
+                self.event(i, Step::Leave(value, density), Some(ray.origin), &u.to_array());
+                self.begin_ray();
             }
             Note::Connect { ray, value, walk_density, light_density, .. } => {
                 let from = self.by_angle.unwrap_or(self.path);
                 self.link = Some(from.connected(value, walk_density, light_density));
                 let step = Step::Connect(value, walk_density, light_density);
-                self.row(i, step, Some(ray.origin), &[]);
+                self.event(i, step, Some(ray.origin), &[]);
             }
             Note::Transmittance { estimate } => {
                 let books = self.now();
                 books.defined = false;
                 times(&mut books.f, &estimate);
-                self.row(i, Step::Transmittance, None, &[]);
+                self.event(i, Step::Transmittance, None, &[]);
             }
             Note::Connected { arrives } => {
                 if !arrives {
@@ -243,16 +278,16 @@ impl Bookkeeper {
     }
 
     fn collide(&mut self, i: usize, found: Found, kept: Kept) {
-        self.kept = Some(kept);
         self.now().pass(&found.passed);
+        self.keeps(kept);
         // Connections take every collision as null; walks draw.
-        let connects = matches!(self.branch(), Branch::Connection | Branch::Angle);
-        if connects {
+        if matches!(self.branch(), Branch::Connection | Branch::Angle) {
             self.now().null(&found);
+            self.event(i, Step::Null, Some(found.point), &[]).found = Some(found);
+        } else {
+            self.row(i, Step::Collision, Some(found.point), &[]).found = Some(found);
+            self.found = Some(found);
         }
-        let step = if connects { Step::Null } else { Step::Collision };
-        self.row(i, step, Some(found.point), &[]).found = Some(found);
-        self.found = (!connects).then_some(found);
     }
 
     /// The outcome joins the row of its collision.
@@ -266,18 +301,21 @@ impl Bookkeeper {
         self.outcome(i, event, u, found);
     }
 
-    /// As [`Self::drawn`], with one density for all components: p_uni and p_nee are that, whichever is the hero.
+    /// As [`Self::drawn`], with one density for all components: p_uni and p_nee have that, whichever is the hero.
     fn drawn_for_all(&mut self, i: usize, event: Event, u: f32, density: f32) {
         let Some(found) = self.found.take() else { return };
         let books = self.now();
         let factor = match event {
-            Event::Null => found.null,
-            Event::Scattering => found.scattering,
-            Event::Absorption => [1.0; 4],
+            Event::Null => Some(found.null),
+            Event::Scattering => Some(found.scattering),
+            Event::Absorption => None,
         };
         books.nulls += u32::from(event == Event::Null);
-        times(&mut books.f, &factor);
-        times(&mut books.uni, &[density; 4]);
+        if let Some(factor) = factor {
+            times(&mut books.f, &factor);
+            times(&mut books.uni, &[density; 4]);
+            times(&mut books.nee, &[density; 4]);
+        }
         self.outcome(i, event, u, found);
     }
 
@@ -291,7 +329,13 @@ impl Bookkeeper {
         if self.rows.last().is_some_and(|row| row.step == Step::Collision) {
             self.rows.pop();
         }
-        self.row(note, step, Some(found.point), &[u]).found = Some(found);
+        let numbers = [u];
+        let row = match event {
+            // The path ends with what it had.
+            Event::Absorption => self.row(note, step, Some(found.point), &numbers),
+            Event::Null | Event::Scattering => self.event(note, step, Some(found.point), &numbers),
+        };
+        row.found = Some(found);
     }
 
     fn credit(

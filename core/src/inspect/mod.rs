@@ -20,4 +20,5 @@ pub use product::Product;
 pub use ray_bench::{Along, BenchPlan, Look, RayBench};
 pub use recording::Recording;
 pub use step::{Branch, Step};
+pub(crate) use strategies::scene_of;
 pub use strategies::{Layer, Split, Strategies, StrategyPlan};

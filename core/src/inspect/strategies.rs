@@ -1,16 +1,17 @@
 //! An image taken apart: what each technique, scattering order, number of null collisions or hero has added to it.
 //!
-//! The same paths as the film's are traced, and what each adds is sorted. The layers sum to the image, but for
-//! rounding. With X_k what layer k has of a sample, the share of the variance that is due to it is
+//! The same paths as the film's are traced, each in the scene that it had, and what each adds is sorted. Samples that are
+//! not finite are left out, as the film does. The layers therefore sum to the image, but for rounding. With X_k what layer k has of a sample, the share of the variance that is due to it is
 //! Cov(X_k, X) / Var(X), and the shares sum to one.
 
-use crate::estimator::{Kernel, PathIndex, Settings};
+use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
 use crate::spectrum::Carried;
 use crate::transport::{Company, Event, Note, Observer, Technique, Wanted};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// By what an image is taken apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -162,6 +163,8 @@ impl Observer for Sorter {
 pub struct StrategyPlan<'a> {
     /// The frozen scene.
     pub scene: &'a Scene,
+    /// Scenes of earlier samples, whose majorants were lower, each with the sample that it ends before.
+    pub earlier: &'a [(u64, Arc<Scene>)],
     /// The estimator's.
     pub kernel: Kernel,
     /// What the paths are traced with.
@@ -178,7 +181,13 @@ impl<'a> StrategyPlan<'a> {
     /// All pixels of an image.
     #[must_use]
     pub fn whole(scene: &'a Scene, kernel: Kernel, settings: &'a Settings, samples: (u64, u64)) -> Self {
-        Self { scene, kernel, settings, window: [0, 0, scene.width, scene.height], stride: 1, samples }
+        let window = [0, 0, scene.width, scene.height];
+        Self { scene, earlier: &[], kernel, settings, window, stride: 1, samples }
+    }
+
+    /// The path of one sample, as the film has it.
+    pub(super) fn trace(&self, at: PathIndex, company: Company<'_>) -> PathEstimate {
+        (self.kernel)(scene_of(self.scene, self.earlier, at.sample), self.settings, at, company)
     }
 
     /// Columns and rows that are traced.
@@ -201,10 +210,15 @@ impl<'a> StrategyPlan<'a> {
     }
 }
 
+/// The scene that a sample is traced in: the newest, or an earlier one that ends after it.
+pub(crate) fn scene_of<'a>(newest: &'a Scene, earlier: &'a [(u64, Arc<Scene>)], sample: u64) -> &'a Scene {
+    earlier.iter().find(|(end, _)| sample < *end).map_or(newest, |(_, scene)| scene)
+}
+
 /// The name of the layer that has most of one path's light.
 pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -> String {
     let mut sorter = Sorter::new(split);
-    (plan.kernel)(plan.scene, plan.settings, at, Company::observed(Wanted::ALWAYS, &mut sorter));
+    plan.trace(at, Company::observed(Wanted::ALWAYS, &mut sorter));
     let grey = sorter.layers.iter().map(|layer| layer.element_sum());
     let largest = grey.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     largest.and_then(|(i, _)| split.layers().into_iter().nth(i)).unwrap_or_default()
@@ -215,9 +229,9 @@ pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -
 pub struct Layer {
     /// Name for people.
     pub name: String,
-    /// Mean linear sRGB, row by row from the top.
+    /// Mean linear sRGB over the samples that are finite, row by row from the top; NaN where none is, as on the film.
     pub mean: Vec<[f32; 3]>,
-    /// Cov(X_k, X) of one sample, summed over channels, pixel by pixel.
+    /// Cov(X_k, X) of one sample, summed over channels, pixel by pixel; zero below two samples.
     pub covariance: Vec<f32>,
 }
 
@@ -239,14 +253,15 @@ pub struct Strategies {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// Samples per pixel.
-    pub spp: u32,
+    /// Samples per pixel, those that are not finite included.
+    pub spp: u64,
     /// Layers that are not black everywhere.
     pub layers: Vec<Layer>,
 }
 
-/// Sums over the samples of a pixel: of every layer, and of its product with all of them, summed over channels.
+/// Sums over the finite samples of a pixel: of every layer, and of its product with all of them, summed over channels.
 struct Sums {
+    count: u64,
     layers: Vec<DVec3>,
     products: Vec<f64>,
 }
@@ -275,17 +290,16 @@ impl Strategies {
             (0..height).into_par_iter().map(|y| Self::row(plan, splits, y, wanted)).collect();
         let pixels: Vec<Vec<Sums>> = rows?.into_iter().flatten().collect();
         let (first, end) = plan.samples;
-        let n = (end - first).max(1) as f64;
         let of = |(i, split): (usize, &Split)| {
             let sums = || pixels.iter().map(move |pixel| &pixel[i]);
             let layers = split.layers().into_iter().enumerate().map(|(k, name)| Layer {
                 name,
-                mean: sums().map(|p| (p.layers[k] / n).as_vec3().to_array()).collect(),
-                covariance: sums().map(|p| p.covariance(k, n) as f32).collect(),
+                mean: sums().map(|p| p.mean(k)).collect(),
+                covariance: sums().map(|p| p.covariance(k) as f32).collect(),
             });
-            let seen = |layer: &Layer| layer.mean.iter().any(|p| *p != [0.0; 3]);
+            let seen = |layer: &Layer| layer.mean.iter().flatten().any(|x| x.is_finite() && *x != 0.0);
             let layers = layers.filter(seen).collect();
-            Self { split: *split, width, height, spp: (end - first) as u32, layers }
+            Self { split: *split, width, height, spp: end.saturating_sub(first), layers }
         };
         Some(splits.iter().enumerate().map(of).collect())
     }
@@ -306,7 +320,7 @@ impl Strategies {
             for sample in plan.samples.0..plan.samples.1 {
                 sorters.0.iter_mut().for_each(Sorter::clear);
                 let company = Company::observed(wanted, &mut sorters);
-                let estimate = (plan.kernel)(plan.scene, plan.settings, PathIndex { x, y, sample }, company);
+                let estimate = plan.trace(PathIndex { x, y, sample }, company);
                 // Asked after each path: the estimate of an unwanted one must not be kept.
                 if !wanted.yes() {
                     return None;
@@ -337,10 +351,11 @@ impl Strategies {
 
 impl Sums {
     fn new(layers: usize) -> Self {
-        Self { layers: vec![DVec3::ZERO; layers], products: vec![0.0; layers] }
+        Self { count: 0, layers: vec![DVec3::ZERO; layers], products: vec![0.0; layers] }
     }
 
     fn add(&mut self, layers: &[DVec3]) {
+        self.count += 1;
         let all: DVec3 = layers.iter().sum();
         for ((sum, product), layer) in self.layers.iter_mut().zip(&mut self.products).zip(layers) {
             *sum += *layer;
@@ -348,9 +363,21 @@ impl Sums {
         }
     }
 
+    fn mean(&self, k: usize) -> [f32; 3] {
+        // None at all is no value: 0 / 0.
+        (self.layers[k] / self.count as f64).as_vec3().to_array()
+    }
+
     /// Cov(X_k, X) of one sample, summed over channels.
-    fn covariance(&self, k: usize, n: f64) -> f64 {
-        let all: DVec3 = self.layers.iter().sum();
-        (self.products[k] - self.layers[k].dot(all) / n) / (n - 1.0).max(1.0)
+    fn covariance(&self, k: usize) -> f64 {
+        if self.count < 2 {
+            return 0.0;
+        }
+        let (n, all) = (self.count as f64, self.layers.iter().sum());
+        (self.products[k] - self.layers[k].dot(all) / n) / (n - 1.0)
     }
 }
+
+#[cfg(test)]
+#[path = "strategies_tests.rs"]
+mod tests;

@@ -1,6 +1,7 @@
 //! One view while it renders: its film, its limits, its next pass.
 
 use super::pass::Work;
+use super::stopping::{Ending, ErrorTarget, ending};
 use super::{Probe, Role, Status};
 use crate::film::{Film, Images, Snapshot, Tally};
 use crate::scene::Limits;
@@ -21,19 +22,19 @@ pub(super) struct Active {
     pub probe: Probe,
     pub pool: Arc<ThreadPool>,
     pub film: Film,
-    pub spp: u32,
+    pub spp: u64,
     pub limits: Limits,
     pub role: Role,
     /// Names the image that it converges to.
     pub target: String,
     pub paused: bool,
     pub steps: u32,
-    pub last_pass: u32,
+    pub last_pass: u64,
     pub seconds: f64,
     pub cpu_seconds: f64,
     pub tally: Tally,
-    /// Standard error over mean, at the end of the last pass; infinite unless there is a limit to it.
-    relative_error: f64,
+    /// What is known of the picture's error, if there is a limit to it.
+    error: ErrorTarget,
     cost: CostScatter,
 }
 
@@ -48,8 +49,8 @@ struct CostScatter {
 }
 
 impl CostScatter {
-    fn add(&mut self, samples: u32, seconds: f64) {
-        let samples = f64::from(samples);
+    fn add(&mut self, samples: u64, seconds: f64) {
+        let samples = samples as f64;
         self.passes += 1.0;
         self.samples += samples;
         self.seconds += seconds;
@@ -68,11 +69,12 @@ impl CostScatter {
 
 impl Active {
     pub fn finished(&self) -> bool {
-        let Limits { spp, seconds, cpu_seconds, relative_error } = self.limits;
-        spp.is_some_and(|spp| self.spp >= spp)
-            || seconds.is_some_and(|seconds| self.seconds >= f64::from(seconds))
-            || cpu_seconds.is_some_and(|seconds| self.cpu_seconds >= f64::from(seconds))
-            || relative_error.is_some_and(|error| self.relative_error <= f64::from(error))
+        self.ending().is_some()
+    }
+
+    /// Why it has ended, if it has.
+    pub fn ending(&self) -> Option<Ending> {
+        ending(&self.limits, (self.spp, self.seconds, self.cpu_seconds), &self.error)
     }
 
     pub fn runnable(&self) -> bool {
@@ -94,43 +96,39 @@ impl Active {
     }
 
     /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.
-    fn next_samples(&self) -> u32 {
+    fn next_samples(&self) -> u64 {
         if self.paused || self.spp == 0 {
             return 1;
         }
         let left = |limit: Option<f32>, had: f64| {
-            let per_sample = had / f64::from(self.spp);
+            let per_sample = had / self.spp as f64;
             limit.map_or(f64::INFINITY, |limit| (f64::from(limit) - had) / per_sample)
         };
-        let per_sample = self.seconds / f64::from(self.spp);
+        let per_sample = self.seconds / self.spp as f64;
         let fitting = (PASS_SECONDS / per_sample)
             .min(left(self.limits.seconds, self.seconds))
             .min(left(self.limits.cpu_seconds, self.cpu_seconds))
-            .clamp(1.0, 4096.0) as u32;
+            .clamp(1.0, 4096.0) as u64;
         let count = fitting.min(self.last_pass.saturating_mul(2)).max(1);
         let count = self.limits.spp.map_or(count, |spp| count.min(spp - self.spp));
-        count.min(self.until_raise())
-    }
-
-    /// Samples until the majorants may be raised: after 1, 2, 4, 8, … of every pixel, so that what is traced with which
-    /// majorants does not depend on time.
-    fn until_raise(&self) -> u32 {
-        if !self.probe.scene.medium.is_progressive() {
-            return u32::MAX;
-        }
-        self.spp.saturating_add(1).checked_next_power_of_two().map_or(u32::MAX, |next| next - self.spp)
+        // Where the error may end it, what it is after which samples must not depend on time.
+        let count = match self.limits.relative_error {
+            Some(_) => count.min(ErrorTarget::until_point(self.spp)),
+            None => count,
+        };
+        count.min(self.probe.until_raise(self.spp))
     }
 
     /// Raises the majorants if it is time, and there is something to raise.
     pub fn raise_majorants(&mut self) -> bool {
-        self.spp.is_power_of_two() && self.probe.raise_majorants(u64::from(self.spp))
+        self.probe.raise_majorants(self.spp)
     }
 
     pub fn snapshot(&mut self) -> Snapshot {
         let images = self.pool.install(|| Images::of(&self.film));
         let snapshot = self.with_images(images, None);
         if self.limits.relative_error.is_some() {
-            self.relative_error = snapshot.relative_error();
+            self.error.note(&snapshot);
         }
         snapshot
     }
@@ -177,7 +175,7 @@ impl Active {
             seconds: 0.0,
             cpu_seconds: 0.0,
             tally: Tally::default(),
-            relative_error: f64::INFINITY,
+            error: ErrorTarget::default(),
             cost: CostScatter::default(),
         }
     }
@@ -188,11 +186,10 @@ impl Active {
     }
 
     /// Runs one pass of at most `most` samples; false if it was cancelled, which leaves the view unusable.
-    pub fn advance(&mut self, rows_per_task: NonZeroUsize, most: u32) -> bool {
+    pub fn advance(&mut self, rows_per_task: NonZeroUsize, most: u64) -> bool {
         let count = self.next_samples().min(most).max(1);
         let began = Instant::now();
-        let first = u64::from(self.spp);
-        let samples = first..first + u64::from(count);
+        let samples = self.spp..self.spp + count;
         // The film is lent to the pass; of a cancelled one only the memory is worth having back.
         let mut film = std::mem::replace(&mut self.film, Film::new(0, 0));
         let cost = self.pool.install(|| self.work().add_samples(&mut film, &samples, rows_per_task));
@@ -215,7 +212,7 @@ mod tests {
 
     #[test]
     fn the_cost_of_even_passes_is_known_and_that_of_uneven_ones_is_not() {
-        let scatter = |passes: &[(u32, f64)]| {
+        let scatter = |passes: &[(u64, f64)]| {
             let mut cost = CostScatter::default();
             for (samples, seconds) in passes {
                 cost.add(*samples, *seconds);

@@ -5,17 +5,17 @@ use super::pass::Work;
 use crate::film::{Film, Tally};
 use crate::transport::Wanted;
 use cpu_time::ProcessTime;
-use rayon::ThreadPool;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
 /// When a batch ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Budget {
-    /// After so many seconds of wall-clock time; the last pass is made to fit.
+    /// After so many seconds of wall-clock time; the last pass is made to fit. Every pixel gets one sample at least.
     Seconds(f64),
-    /// After so many samples per pixel.
-    Samples(u32),
+    /// After so many samples per pixel, of which there may be none.
+    Samples(u64),
 }
 
 /// A film with all that it has cost.
@@ -24,41 +24,147 @@ pub struct Batch {
     /// The picture.
     pub film: Film,
     /// Samples per pixel.
-    pub spp: u32,
+    pub spp: u64,
     /// Seconds from the first path to the last.
     pub wall_seconds: f64,
     /// CPU seconds of the whole process meanwhile: tracing, film, threads that wait.
     pub cpu_seconds: f64,
     /// Paths and look-ups.
     pub tally: Tally,
+    /// What its paths were traced with, majorants that were raised on the way included: traces them again.
+    pub probe: Probe,
 }
 
-/// Renders with what `probe` traces on the threads of `pool`.
+/// Renders with what `probe` traces on the threads of `pool`, as a session would.
 #[must_use]
 pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
+    let mut probe = probe.afresh();
     let mut film = Film::new(probe.scene.width as usize, probe.scene.height as usize);
     let mut tally = Tally::default();
-    let work = Work { probe, wanted: Wanted::ALWAYS };
-    let (mut spp, mut pass) = (0u32, 1u32);
+    let (mut spp, mut pass) = (0u64, 1u64);
+    if let Budget::Samples(limit) = budget {
+        pass = pass.min(limit);
+    }
     let (began, cpu) = (Instant::now(), ProcessTime::now());
     while pass > 0 {
-        let samples = u64::from(spp)..u64::from(spp + pass);
+        pass = pass.min(probe.until_raise(spp));
+        let work = Work { probe: &probe, wanted: Wanted::ALWAYS };
         // Nobody cancels it.
-        let cost = pool.install(|| work.add_samples(&mut film, &samples, NonZeroUsize::MIN));
+        let cost = pool.install(|| work.add_samples(&mut film, &(spp..spp + pass), NonZeroUsize::MIN));
         let cost = cost.unwrap_or_default();
         tally.merge(&cost.tally);
         spp += pass;
+        probe.raise_majorants(spp);
         pass = match budget {
-            Budget::Samples(limit) => (limit - spp).min(2 * pass),
+            Budget::Samples(limit) => limit.saturating_sub(spp).min(2 * pass),
             Budget::Seconds(limit) => {
                 let elapsed = began.elapsed().as_secs_f64();
-                let fitting = (limit - elapsed) / elapsed * f64::from(spp);
+                let fitting = (limit - elapsed) / elapsed * spp as f64;
                 // Half of what fits, so that a wrong guess does not overrun, but no end of tiny passes.
                 let share = if fitting > 8.0 { 0.5 * fitting } else { fitting };
-                (share.max(0.0) as u32).min(4 * spp)
+                (share.max(0.0) as u64).min(4 * spp)
             }
         };
     }
     let (wall_seconds, cpu_seconds) = (began.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64());
-    Batch { film, spp, wall_seconds, cpu_seconds, tally }
+    Batch { film, spp, wall_seconds, cpu_seconds, tally, probe }
+}
+
+/// What a film of so many samples per pixel is traced with. Where majorants are raised by what its samples find, those that
+/// come before the last raise are traced for it, on as many threads as are given, or one per core; elsewhere nothing is.
+///
+/// # Errors
+/// When the operating system refuses a thread.
+pub fn probe_of_film(probe: &Probe, threads: Option<usize>, samples: u64) -> std::io::Result<Probe> {
+    match samples.saturating_sub(1).checked_ilog2() {
+        Some(raises) if probe.scene.medium.is_progressive() => {
+            let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+            let pool = pool.map_err(std::io::Error::other)?;
+            Ok(render(probe, &pool, Budget::Samples(1 << raises)).probe)
+        }
+        _ => Ok(probe.clone()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::{PathEstimate, PathIndex, Settings, find};
+    use crate::io::Library;
+    use crate::scene::{Scene, SceneDoc, WhenExceeded, build};
+    use crate::transport::Company;
+    use std::sync::Arc;
+
+    fn pool() -> ThreadPool {
+        ThreadPoolBuilder::new().num_threads(2).build().unwrap()
+    }
+
+    fn doc() -> SceneDoc {
+        let mut doc = SceneDoc::default();
+        (doc.film.width, doc.film.height) = (6, 5);
+        doc
+    }
+
+    fn number(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+        PathEstimate { rgb: glam::Vec3::splat(at.sample as f32), lookups: 1, exceeded: 0 }
+    }
+
+    fn numbered(scene: Scene) -> Probe {
+        Probe::new(Arc::new(scene), number, Settings::new(&SceneDoc::default().estimator, 0))
+    }
+
+    #[test]
+    fn a_budget_of_samples_gives_as_many_even_if_none() {
+        let probe = numbered(build(&doc(), &mut Library::default()).unwrap());
+        for limit in [0, 1, 2, 3, 7, 8, 100] {
+            let batch = render(&probe, &pool(), Budget::Samples(limit));
+            assert_eq!((batch.spp, batch.tally.paths), (limit, limit * 30));
+            assert!(batch.film.pixels.iter().all(|p| p.count == limit && p.lookups == limit));
+        }
+    }
+
+    #[test]
+    fn a_budget_of_no_or_nonsensical_time_gives_one_sample() {
+        let probe = numbered(build(&doc(), &mut Library::default()).unwrap());
+        for seconds in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(render(&probe, &pool(), Budget::Seconds(seconds)).spp, 1, "{seconds}");
+        }
+    }
+
+    #[test]
+    fn a_film_without_pixels_is_rendered_at_once() {
+        for (width, height) in [(0, 5), (6, 0), (0, 0)] {
+            let mut scene = build(&doc(), &mut Library::default()).unwrap();
+            (scene.width, scene.height) = (width, height);
+            let batch = render(&numbered(scene), &pool(), Budget::Samples(9));
+            assert_eq!((batch.spp, batch.tally.paths, batch.film.pixels.len()), (9, 0, 0));
+        }
+    }
+
+    /// The paths that a raised probe replays are those of the film, also if one probe is rendered twice, and if the samples
+    /// before the last raise alone were traced for it.
+    #[test]
+    fn a_batch_raises_majorants_and_its_probe_replays_every_sample() {
+        let mut doc = doc();
+        doc.medium.majorant.factor = 0.1;
+        doc.medium.majorant.when_exceeded = WhenExceeded::Progressive;
+        let scene = Arc::new(build(&doc, &mut Library::default()).unwrap());
+        let kernel = find("uni-nee-mis").unwrap().kernel;
+        let probe = Probe::new(scene, kernel, Settings::new(&doc.estimator, 0));
+        const SPP: u64 = 21;
+        let film = render(&probe, &pool(), Budget::Samples(SPP));
+        assert_eq!(render(&probe, &pool(), Budget::Samples(SPP)).film.pixels, film.film.pixels);
+        assert!(film.tally.exceeded > 0 && !film.probe.before.is_empty(), "nothing was raised");
+        let of_film = probe_of_film(&probe, Some(2), SPP).unwrap();
+        for replayed in [&film.probe, &of_film] {
+            for (i, pixel) in film.film.pixels.iter().enumerate() {
+                let mut again = crate::film::Pixel::default();
+                for sample in replayed.samples((i as u32 % 6, i as u32 / 6), 0..SPP, Wanted::ALWAYS) {
+                    again.lookups += sample.lookups;
+                    again.add(sample.rgb);
+                }
+                assert_eq!(again, *pixel);
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use super::keeper::Keeper;
 use super::mailbox::{Command, Mailbox};
 use super::pass::Work;
 use super::turns::Turns;
-use super::{Job, Probe, Role, Status, ViewId, preview};
+use super::{Job, Probe, Role, ViewId, preview};
 use crate::estimator::{self, Settings};
 use crate::film::{Film, Images};
 use crate::io::Library;
@@ -83,7 +83,7 @@ impl Coordinator<'_> {
     fn change(&mut self, id: ViewId, f: impl FnOnce(&mut Active)) {
         if let Some(view) = self.views.get_mut(&id) {
             f(view);
-            self.mailbox.publish_status(id, view.generation, view.status());
+            self.mailbox.publish_status(id, view);
         }
     }
 
@@ -99,7 +99,7 @@ impl Coordinator<'_> {
         self.turns.note(view.role, view.cpu_seconds - before, contenders);
         match pass {
             Ok(Some(snapshot)) => {
-                self.mailbox.publish_snapshot(id, snapshot, view.status());
+                self.mailbox.publish_snapshot(id, snapshot, (view.status(), view.ending()));
                 if view.raise_majorants() {
                     self.mailbox.publish_probe(id, view);
                 }
@@ -117,7 +117,7 @@ impl Coordinator<'_> {
     }
 
     fn fail(&self, id: ViewId, generation: u64, message: String) {
-        self.mailbox.publish_status(id, generation, Status::Failed(message));
+        self.mailbox.publish_failure(id, generation, message);
     }
 
     fn start(&mut self, id: ViewId, generation: u64, job: &Job) {
@@ -158,7 +158,7 @@ impl Coordinator<'_> {
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
         let current = self.mailbox.current(id);
-        let probe = Probe::new(scene, entry.kernel, settings).aside();
+        let probe = Probe::new(scene, entry.kernel, settings).afresh();
         let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
         (view.role, view.target) = (job.role, self.keeper.target(doc));
         view.paused = self.paused.contains(&id);
@@ -179,7 +179,7 @@ impl Coordinator<'_> {
             let standard_error = vec![[f32::INFINITY; 3]; image.len()];
             let images = Images { mean: image, standard_error, noise: Vec::new() };
             let snapshot = view.with_images(images, Some(stride as u32));
-            self.mailbox.publish_snapshot(id, snapshot, view.status());
+            self.mailbox.publish_snapshot(id, snapshot, (view.status(), view.ending()));
             let whole_pass = began.elapsed().as_secs_f64() * (stride * stride) as f64;
             if stride <= 2 || whole_pass < FINE_PREVIEW_SECONDS {
                 return;
@@ -200,7 +200,8 @@ fn internal_error(panic: &(dyn std::any::Any + Send)) -> String {
 mod tests {
     use super::*;
     use crate::estimator::{Kernel, PathEstimate, PathIndex};
-    use crate::scene::{Scene, SceneDoc};
+    use crate::scene::{Limits, Scene, SceneDoc};
+    use crate::session::{Ending, Status};
     use crate::transport::Company;
     use std::sync::Arc;
 
@@ -263,6 +264,76 @@ mod tests {
         coordinator.advance_next();
         let later = mailbox.state(id).snapshot.unwrap();
         assert_eq!((later.mean[1], later.tally.non_finite), ([0.5; 3], 2));
+    }
+
+    fn black(_: &Scene, _: &Settings, _: PathIndex, _: Company<'_>) -> PathEstimate {
+        PathEstimate { rgb: glam::Vec3::ZERO, lookups: 1, exceeded: 0 }
+    }
+
+    fn nowhere_finite(_: &Scene, _: &Settings, _: PathIndex, _: Company<'_>) -> PathEstimate {
+        PathEstimate { rgb: glam::Vec3::INFINITY, lookups: 1, exceeded: 0 }
+    }
+
+    fn noisy(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+        let pixel = u64::from(at.x + 3 * at.y);
+        let value = crate::math::Sampler::new(1, pixel, at.sample).next_optical_depth();
+        PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
+    }
+
+    /// The only limit is the error: whatever the picture is, there is an end, after samples that do not depend on how
+    /// they are split into passes.
+    #[test]
+    fn an_error_as_the_only_limit_ends_every_picture() {
+        let cases: [(Kernel, Ending); 3] =
+            [(black, Ending::Black), (nowhere_finite, Ending::NotFinite), (noisy, Ending::RelativeError)];
+        for (kernel, expected) in cases {
+            let ends = [1, 3, u64::MAX].map(|most| {
+                let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
+                let (mut coordinator, id) = with_kernel(&mailbox, kernel);
+                let error = Limits { relative_error: Some(0.1), ..Limits::default() };
+                let view = coordinator.views.get_mut(&id).unwrap();
+                view.limits = error;
+                for _ in 0..5000 {
+                    let view = coordinator.views.get_mut(&id).unwrap();
+                    if view.finished() {
+                        break;
+                    }
+                    assert!(view.advance(ROWS_PER_TASK, most));
+                    view.snapshot();
+                }
+                coordinator.obey(Command::Limits { view: id, limits: error });
+                let (spp, state) = (coordinator.views[&id].spp, mailbox.state(id));
+                assert_eq!((state.status, state.ending), (Status::Finished, Some(expected)));
+                spp
+            });
+            assert_eq!(ends, [ends[0]; 3], "{expected:?}");
+            assert!(ends[0] >= 16);
+        }
+    }
+
+    /// Passes, raises and planned points go on where 32 bits end.
+    #[test]
+    fn a_view_goes_on_beyond_32_bits_of_samples() {
+        let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
+        for limits in [
+            Limits::samples((1 << 32) + 5),
+            Limits { relative_error: Some(1e-9), ..Limits::samples((1 << 32) + 5) },
+        ] {
+            let (mut coordinator, id) = with_kernel(&mailbox, noisy);
+            let view = coordinator.views.get_mut(&id).unwrap();
+            (view.limits, view.spp, view.last_pass) = (limits, (1 << 32) - 3, 2);
+            (view.seconds, view.cpu_seconds) = (1.0, 1.0);
+            for _ in 0..20 {
+                coordinator.advance_next();
+            }
+            let state = mailbox.state(id);
+            assert_eq!((state.status, state.ending), (Status::Finished, Some(Ending::Samples)));
+            let snapshot = state.snapshot.unwrap();
+            assert_eq!(
+                (snapshot.spp, snapshot.tally.paths, snapshot.noise[0].samples),
+                ((1 << 32) + 5, 48, 8)
+            );
+        }
     }
 
     #[test]

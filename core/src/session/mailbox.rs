@@ -1,7 +1,7 @@
 //! What callers and the coordinator share: commands in, states out, one cancel flag per view.
 
 use super::active::Active;
-use super::{Job, Status, ViewId, ViewState};
+use super::{Ending, Job, Status, ViewId, ViewState};
 use crate::film::Snapshot;
 use crate::io::Progress;
 use crate::scene::{Fairness, Limits};
@@ -36,6 +36,7 @@ impl Public {
             state: ViewState {
                 generation: 0,
                 status: Status::Empty,
+                ending: None,
                 snapshot: None,
                 loading: None,
                 notices: Vec::new(),
@@ -48,6 +49,12 @@ impl Public {
             submitted: Instant::now(),
             current: Arc::new(AtomicU64::new(0)),
         }
+    }
+}
+
+impl ViewState {
+    fn set(&mut self, status: Status, ending: Option<Ending>) {
+        (self.status, self.ending) = (status, ending);
     }
 }
 
@@ -87,6 +94,7 @@ impl Mailbox {
         let public = inner.views.entry(view).or_insert_with(Public::new);
         public.state.generation = generation;
         public.state.status = Status::Building;
+        public.state.ending = None;
         public.state.first_picture_seconds = None;
         public.state.cancelled_seconds = None;
         public.submitted = Instant::now();
@@ -174,8 +182,14 @@ impl Mailbox {
         (self.wake)();
     }
 
-    pub fn publish_status(&self, view: ViewId, generation: u64, status: Status) {
-        self.publish(view, generation, |p| p.state.status = status);
+    /// Publishes that a view could not go on.
+    pub fn publish_failure(&self, view: ViewId, generation: u64, message: String) {
+        self.publish(view, generation, |p| p.state.set(Status::Failed(message), None));
+    }
+
+    /// Publishes what a view is doing.
+    pub fn publish_status(&self, view: ViewId, active: &Active) {
+        self.publish(view, active.generation, |p| p.state.set(active.status(), active.ending()));
     }
 
     /// Takes note that nothing older than `generation` is being traced any more.
@@ -190,24 +204,29 @@ impl Mailbox {
     /// Publishes what freezing the scene has found.
     pub fn publish_built(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| {
-            p.state.status = active.status();
+            p.state.set(active.status(), active.ending());
             p.state.notices.clone_from(&active.probe.scene.notices);
             p.state.scene = Some(active.probe.scene.info.clone());
-            p.state.probe = Some(active.probe.clone());
+            p.state.probe = Some(active.probe.aside());
         });
     }
 
     /// Publishes what paths are traced with from now on.
     pub fn publish_probe(&self, view: ViewId, active: &Active) {
-        self.publish(view, active.generation, |p| p.state.probe = Some(active.probe.clone()));
+        self.publish(view, active.generation, |p| p.state.probe = Some(active.probe.aside()));
     }
 
     /// Publishes a picture together with the status that goes with it.
-    pub fn publish_snapshot(&self, view: ViewId, snapshot: Snapshot, status: Status) {
+    pub fn publish_snapshot(
+        &self,
+        view: ViewId,
+        snapshot: Snapshot,
+        (status, ending): (Status, Option<Ending>),
+    ) {
         self.publish(view, snapshot.generation, |p| {
             let waited = p.submitted.elapsed().as_secs_f64();
             p.state.first_picture_seconds.get_or_insert(waited);
-            p.state.status = status;
+            p.state.set(status, ending);
             p.state.snapshot = Some(Arc::new(snapshot));
         });
     }

@@ -17,16 +17,18 @@ mod mailbox;
 mod pass;
 mod preview;
 mod probe;
+mod stopping;
 mod turns;
 
 use crate::film::Snapshot;
 use crate::io::{Library, Loading};
 use crate::scene::{Fairness, Limits, SceneDoc, SceneInfo};
-pub use batch::{Batch, Budget, render};
+pub use batch::{Batch, Budget, probe_of_film, render};
 use mailbox::{Command, Mailbox};
 pub use probe::{PixelSample, Probe};
 use std::sync::Arc;
 use std::thread::JoinHandle;
+pub use stopping::Ending;
 
 /// Names a view of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -78,6 +80,8 @@ pub struct ViewState {
     pub generation: u64,
     /// What it is doing.
     pub status: Status,
+    /// Why it is finished, if it is.
+    pub ending: Option<Ending>,
     /// The newest picture; it may belong to an older generation until the new one has a first picture.
     pub snapshot: Option<Arc<Snapshot>>,
     /// The file that is read while the scene is built.

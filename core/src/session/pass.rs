@@ -50,6 +50,9 @@ impl Work<'_> {
         rows_per_task: NonZeroUsize,
     ) -> Option<Cost> {
         let (width, rows) = (film.width, rows_per_task.get());
+        if film.pixels.is_empty() {
+            return Some(Cost::default());
+        }
         let bands = film.pixels.par_chunks_mut(width * rows).enumerate().with_max_len(1);
         let costs: Option<Vec<Cost>> = bands
             .map_init(Vec::new, |traced, (band, pixels)| {

@@ -11,6 +11,9 @@ const PREVIEW_SAMPLE: u64 = u64::MAX;
 pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
     let (width, height) = (work.probe.scene.width as usize, work.probe.scene.height as usize);
     let mut image = vec![[0.0f32; 3]; width * height];
+    if image.is_empty() {
+        return Some(image);
+    }
     let bands = image.par_chunks_mut(width * stride).enumerate().with_max_len(1);
     let done = bands.try_for_each(|(band, rows)| {
         let y = (band * stride + stride / 2).min(height - 1);

@@ -1,7 +1,8 @@
 //! Any path of a view, traced again: random numbers are a function of (seed, pixel, sample).
 
 use crate::estimator::{Entry, Kernel, PathEstimate, PathIndex, Settings};
-use crate::inspect::{Evidence, Recording, Split, Strategies, StrategyPlan};
+use crate::inspect::{Evidence, Recording, Split, Strategies, StrategyPlan, scene_of};
+use crate::medium::Violations;
 use crate::scene::Scene;
 use crate::transport::Wanted;
 use std::fmt;
@@ -16,6 +17,8 @@ pub struct Probe {
     pub(super) before: Vec<(u64, Arc<Scene>)>,
     pub(super) kernel: Kernel,
     pub(super) settings: Settings,
+    /// What the film's paths have found of the scene's majorants; paths that are traced aside have findings of their own.
+    found: Arc<Violations>,
 }
 
 impl fmt::Debug for Probe {
@@ -42,20 +45,53 @@ impl Probe {
     /// Paths of a scene by an estimator's kernel.
     #[must_use]
     pub fn new(scene: Arc<Scene>, kernel: Kernel, settings: Settings) -> Self {
-        Self { scene, before: Vec::new(), kernel, settings }
+        let found = Arc::clone(&scene.violations);
+        Self { scene, before: Vec::new(), kernel, settings, found }
     }
 
-    /// The same, for paths of which nothing is to be learnt about the majorant.
-    pub(super) fn aside(&self) -> Self {
+    /// The same, for paths of which nothing is to be learnt about the majorant: looking at paths must not change those that
+    /// a film is still to get.
+    #[must_use]
+    pub fn aside(&self) -> Self {
         let scene = &self.scene;
         let scene = if scene.medium.is_watched() { Arc::new(scene.unwatched()) } else { Arc::clone(scene) };
         Self { scene, ..self.clone() }
     }
 
-    /// Raises the majorants, where they were found to be exceeded, for all samples from `sample` on; false if there
-    /// is nothing to raise.
+    /// Paths of a film that has had no samples yet: nothing was found of the majorants.
+    pub(super) fn afresh(&self) -> Self {
+        let aside = self.aside();
+        Self { found: Arc::clone(&aside.scene.violations), ..aside }
+    }
+
+    /// Where the film's paths have found the newest majorants to be exceeded.
+    #[must_use]
+    pub fn violations(&self) -> &Violations {
+        &self.found
+    }
+
+    /// How often the majorants were raised: samples that the film does not have yet are traced otherwise after the next time.
+    #[must_use]
+    pub fn raises(&self) -> usize {
+        self.before.len()
+    }
+
+    /// Samples from the `spp`-th on until the majorants may be raised: after 1, 2, 4, 8, … of every pixel, so that what is
+    /// traced with which majorants does not depend on time.
+    pub(super) fn until_raise(&self, spp: u64) -> u64 {
+        if !self.scene.medium.is_progressive() {
+            return u64::MAX;
+        }
+        spp.saturating_add(1).checked_next_power_of_two().map_or(u64::MAX, |next| next - spp)
+    }
+
+    /// Raises the majorants, where they were found to be exceeded, for all samples from `sample` on; false if it is not
+    /// time, or there is nothing to raise.
     pub(super) fn raise_majorants(&mut self, sample: u64) -> bool {
-        let Some(raised) = self.scene.raised() else { return false };
+        let Some(raised) = sample.is_power_of_two().then(|| self.scene.raised()).flatten() else {
+            return false;
+        };
+        self.found = Arc::clone(&raised.violations);
         self.before.push((sample, std::mem::replace(&mut self.scene, Arc::new(raised))));
         true
     }
@@ -106,7 +142,11 @@ impl Probe {
     }
 
     fn plan(&self, samples: Range<u64>) -> StrategyPlan<'_> {
-        StrategyPlan::whole(&self.scene, self.kernel, &self.settings, (samples.start, samples.end))
+        let samples = (samples.start, samples.end);
+        StrategyPlan {
+            earlier: &self.before,
+            ..StrategyPlan::whole(&self.scene, self.kernel, &self.settings, samples)
+        }
     }
 
     /// The same scene and random numbers under another estimator.
@@ -117,8 +157,7 @@ impl Probe {
 
     /// The scene that a sample was traced in.
     fn scene_of(&self, sample: u64) -> &Scene {
-        let earlier = self.before.iter().find(|(end, _)| sample < *end);
-        earlier.map_or(&self.scene, |(_, scene)| scene)
+        scene_of(&self.scene, &self.before, sample)
     }
 
     /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not

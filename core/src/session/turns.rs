@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 fn had(view: &Active, fairness: Fairness) -> f64 {
     match fairness {
         Fairness::Time => view.cpu_seconds,
-        Fairness::Samples => f64::from(view.spp),
+        Fairness::Samples => view.spp as f64,
         // A path counts as one at least: what never meets the medium must not have all the turns.
         Fairness::Lookups => view.tally.lookups.max(view.tally.paths) as f64,
     }
@@ -32,7 +32,7 @@ const LONGEST_DEBT_SECONDS: f64 = 1.0;
 
 impl Turns {
     /// The next view to get a pass, with the most samples per pixel that it may take.
-    pub fn next<K: Copy + Ord>(&self, views: &BTreeMap<K, Active>) -> Option<(K, u32)> {
+    pub fn next<K: Copy + Ord>(&self, views: &BTreeMap<K, Active>) -> Option<(K, u64)> {
         let runnable = || views.iter().filter(|(_, v)| v.runnable());
         let background = runnable().find(|(_, v)| v.role == Role::Background);
         let contender = runnable()
@@ -40,8 +40,8 @@ impl Turns {
             .min_by(|(_, a), (_, b)| had(a, self.fairness).total_cmp(&had(b, self.fairness)));
         match (contender, background) {
             (None, None) => None,
-            (None, Some((id, _))) => Some((*id, u32::MAX)),
-            (Some(_), Some((id, _))) if self.owed > 0.0 => Some((*id, u32::MAX)),
+            (None, Some((id, _))) => Some((*id, u64::MAX)),
+            (Some(_), Some((id, _))) if self.owed > 0.0 => Some((*id, u64::MAX)),
             (Some((id, view)), _) => {
                 let ahead = runnable()
                     .filter(|(_, v)| v.role == Role::Contender)
@@ -53,16 +53,16 @@ impl Turns {
     }
 
     /// Samples per pixel that bring a view level with what the one ahead has had; no bound if none is ahead.
-    fn samples_to(&self, view: &Active, ahead: f64) -> u32 {
+    fn samples_to(&self, view: &Active, ahead: f64) -> u64 {
         let mine = had(view, self.fairness);
         if ahead <= mine {
-            return u32::MAX;
+            return u64::MAX;
         }
         if view.spp == 0 {
             return 1;
         }
-        let per_sample = mine / f64::from(view.spp);
-        ((ahead - mine) / per_sample).round().clamp(1.0, f64::from(u32::MAX)) as u32
+        let per_sample = mine / view.spp as f64;
+        ((ahead - mine) / per_sample).round().max(1.0) as u64
     }
 
     /// Takes note of what a pass has cost; `contenders` are those that can run.
@@ -101,7 +101,7 @@ mod tests {
     const COSTS: [(f64, u64); 3] = [(0.001, 10), (0.004, 5), (0.01, 300)];
 
     /// Runs passes of at most `fitting` samples, as if they had cost what they should.
-    fn run(views: &mut BTreeMap<usize, Active>, turns: &mut Turns, passes: usize, fitting: u32) {
+    fn run(views: &mut BTreeMap<usize, Active>, turns: &mut Turns, passes: usize, fitting: u64) {
         for _ in 0..passes {
             let (id, most) = turns.next(views).unwrap();
             let contenders = views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
@@ -109,9 +109,9 @@ mod tests {
             let count = fitting.min(most);
             let (seconds, lookups) = COSTS[id % COSTS.len()];
             view.spp += count;
-            view.cpu_seconds += seconds * f64::from(count);
-            view.tally.lookups += lookups * u64::from(count);
-            turns.note(view.role, seconds * f64::from(count), contenders);
+            view.cpu_seconds += seconds * count as f64;
+            view.tally.lookups += lookups * count;
+            turns.note(view.role, seconds * count as f64, contenders);
         }
     }
 
@@ -138,7 +138,7 @@ mod tests {
         let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
         let mut turns = Turns { fairness: Fairness::Samples, ..Turns::default() };
         run(&mut views, &mut turns, 100, 8);
-        let before: u32 = views.values().map(|v| v.spp).max().unwrap();
+        let before: u64 = views.values().map(|v| v.spp).max().unwrap();
         views.insert(2, view(Role::Contender));
         while views[&2].spp < before {
             run(&mut views, &mut turns, 1, 8);

@@ -65,7 +65,11 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let aim = self.aim(vertex, trace)?;
         let mut weights = path.connect(&aim.turn, aim.density);
         trace.tell(move || aim.note());
+        let sets_out = weights;
+        trace.tell(move || Note::Weights(sets_out.kept()));
         weights.attenuate(self.estimate_transmittance(&aim.ray, aim.distance, trace));
+        let arrives = weights;
+        trace.tell(move || Note::Weights(arrives.kept()));
         trace.tell(move || Note::Connected { arrives: true });
         Some(Connection { weights, radiance: aim.radiance, turn: aim.turn })
     }
@@ -112,6 +116,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
             if weights.is_dark() {
+                trace.tell(move || Note::Weights(weights.kept()));
                 return None;
             }
         }

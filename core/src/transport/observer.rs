@@ -93,13 +93,18 @@ pub enum Note {
         /// What the components are.
         carried: Carried,
     },
-    /// A walk, or a connection, has found a tentative collision.
+    /// A walk, or a connection, has found a tentative collision; what is kept is that before its outcome.
     Collision(Found, Kept),
     /// A walk, or a connection, has left the medium after this optical depth.
     Exit {
         /// By the majorants, per component.
         passed: Lanes,
+        /// What is kept of the path after it.
+        kept: Kept,
     },
+    /// What is kept of the path after the last event of the walk or connection at hand, where the event could not tell
+    /// it itself.
+    Weights(Kept),
     /// What a walk has drawn at its last collision.
     Drawn {
         /// The outcome.

@@ -75,6 +75,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         trace: &mut Trace<'_>,
         weights: &mut impl WalkWeights<N>,
     ) -> Option<Collision<N>> {
+        let before = *weights;
+        trace.tell(move || Note::Weights(before.kept()));
         let way = self.way.as_mut()?;
         if trace.must_stop() {
             return None;
@@ -116,7 +118,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             way.segment = next;
         }
         weights.pass(passed);
-        trace.tell(move || Note::Exit { passed: passed.lanes() });
+        let kept = *weights;
+        trace.tell(move || Note::Exit { passed: passed.lanes(), kept: kept.kept() });
         self.way = None;
         None
     }

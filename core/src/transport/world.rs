@@ -302,6 +302,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
                 return false;
             }
             weights.survive(q);
+            let kept = *weights;
+            trace.tell(move || Note::Weights(kept.kept()));
         }
         true
     }

@@ -99,7 +99,7 @@ fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence
     let slot = cx.wall.selected_slot()?;
     let probe = slot.state.probe.clone()?;
     let region = cx.doc.compare.region;
-    let question = NoiseQuestion { of: (cx.wall.selected(), slot.state.generation), region };
+    let question = NoiseQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), region };
     let chroma = slot.state.snapshot.as_deref().and_then(|snapshot| chroma_share(snapshot, region));
     let wake = move || {
         if let Some(ctx) = wake {

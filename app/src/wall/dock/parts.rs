@@ -138,7 +138,8 @@ fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     let probe = slot.state.probe.clone()?;
     let state = &mut cx.inspector.parts;
     let (split, spp) = (state.split, state.spp());
-    let question = PartsQuestion { of: (cx.wall.selected(), slot.state.generation), split, spp };
+    let question =
+        PartsQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), split, spp };
     let ctx = ui.ctx().clone();
     state.errand.ask(
         &question,

@@ -151,7 +151,7 @@ fn line(
         String::new()
     };
     let cells = [
-        (count(s.spp.into()), excluded),
+        (count(s.spp as f64), excluded),
         (duration_short(s.cpu_seconds), duration(s.cpu_seconds)),
         (count(s.lookups_per_path), String::new()),
         (

@@ -14,7 +14,7 @@ pub struct Row {
     /// A, B, C, …
     pub label: String,
     /// Samples per pixel.
-    pub spp: u32,
+    pub spp: u64,
     /// CPU seconds of path tracing, all workers together.
     pub seconds: f64,
     /// Seconds of rendering.

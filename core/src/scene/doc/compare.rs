@@ -124,7 +124,7 @@ pub enum ReferenceDoc {
         estimator: String,
         /// Samples per pixel.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        spp: Option<u32>,
+        spp: Option<u64>,
         /// Until the standard error is this share of the mean.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         relative_error: Option<f32>,

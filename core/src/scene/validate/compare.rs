@@ -1,7 +1,7 @@
 //! Checks of a comparison.
 
 use super::{Checker, Problem, scene_problems};
-use crate::scene::{MAX_VIEWS, ReferenceDoc, SceneDoc};
+use crate::scene::{Limits, MAX_VIEWS, ReferenceDoc, SceneDoc};
 
 pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     let compare = &doc.compare;
@@ -25,9 +25,9 @@ pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     }
     if let ReferenceDoc::Render { spp, relative_error, .. } = compare.reference {
         c.check(
-            spp.is_none_or(|spp| spp > 0 && spp <= 1 << 30),
+            spp.is_none_or(|spp| (1..=Limits::MOST_SAMPLES).contains(&spp)),
             "compare.reference.spp",
-            "must lie between 1 and 2^30: leave it out for no limit",
+            "must lie between 1 and 2^63 − 1: leave it out for no limit",
         );
         c.check(
             relative_error.is_none_or(|e| e > 0.0 && e.is_finite()),

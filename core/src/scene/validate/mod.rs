@@ -3,7 +3,7 @@
 mod compare;
 mod medium;
 
-use super::{LightDoc, ObjectDoc, SceneDoc};
+use super::{LightDoc, Limits, ObjectDoc, SceneDoc};
 use crate::spectrum::SpectrumDoc;
 use glam::Vec3;
 use std::fmt;
@@ -140,9 +140,9 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
     );
     c.check(doc.render.spp != Some(0), "render.spp", "is 0: leave it out for no limit");
     c.check(
-        doc.render.spp.is_none_or(|spp| spp <= 1 << 30),
+        doc.render.spp.is_none_or(|spp| spp <= Limits::MOST_SAMPLES),
         "render.spp",
-        "is above 2^30: leave it out for no limit",
+        "is above 2^63 − 1: leave it out for no limit",
     );
     c.check(
         doc.render.seconds.is_none_or(|s| s > 0.0 && s.is_finite()),

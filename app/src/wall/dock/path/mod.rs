@@ -135,7 +135,7 @@ fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>>
     let [x, y] = state.pixel?;
     let at = PathIndex { x: x as u32, y: y as u32, sample: state.sample? };
     let question = PathQuestion {
-        of: (view, slot.state.generation),
+        of: (view, slot.state.generation, probe.raises()),
         pixel: [x, y],
         sample: at.sample,
         estimator: entry.id,

@@ -12,7 +12,7 @@ pub(super) struct Line {
     name: String,
     estimator: String,
     colour: String,
-    spp: u32,
+    spp: u64,
     seconds: String,
     lookups: String,
     relmse: String,

@@ -19,7 +19,7 @@ pub(super) struct Setting {
     roulette: String,
     majorant: String,
     seed: u64,
-    spp: u32,
+    spp: u64,
     against: String,
     command: Option<String>,
 }
