@@ -1,7 +1,7 @@
 //! The reference of the comparison: rendered in the background, read from a file, or a view's picture.
 
 use super::slot::Slot;
-use majorant_core::compare::{Reference, label};
+use majorant_core::compare::{Reference, label, reference_doc};
 use majorant_core::estimator;
 use majorant_core::film::Snapshot;
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
@@ -49,7 +49,7 @@ impl ReferenceKeeper {
         resolved: impl Fn(&SceneDoc) -> SceneDoc,
         session: &Session,
     ) -> Option<PathBuf> {
-        match doc.reference_doc() {
+        match reference_doc(doc) {
             Some(wanted) => {
                 let slot = self.rendered.get_or_insert_with(|| Slot::new(BACKGROUND, session));
                 slot.submit(&wanted, resolved, Role::Background, session);
@@ -118,7 +118,10 @@ impl ReferenceKeeper {
                 let known = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
                 if !known {
                     let origin = |spp: u32| format!("{origin}, {spp} spp");
-                    self.picture = usable.as_ref().map(|s| Arc::new(Reference::of(s, origin(s.spp))));
+                    // No view may have its random numbers, whatever becomes of the document meanwhile.
+                    let seed = slot.rendered.render.seed;
+                    self.picture =
+                        usable.as_ref().map(|s| Arc::new(Reference::of(s, origin(s.spp)).with_seed(seed)));
                     self.made_from = usable;
                 }
             }

@@ -28,4 +28,4 @@ pub use experiment::{Experiment, View, label, view_colour};
 pub use open::{ReferenceError, open, seed_of};
 pub use ranking::{Against, Contender, Opponent, Question, Standing, opponents, rank};
 pub use reference::Reference;
-pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, run};
+pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, reference_doc, run};

@@ -46,6 +46,12 @@ impl Reference {
         }
     }
 
+    /// The same, with the random numbers that it was rendered with.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self }
+    }
+
     /// A picture with its standard error, that no view shows.
     #[must_use]
     pub fn own(
