@@ -64,6 +64,15 @@ impl Reference {
         Self { width, height, picture, target: None, origin, seed: None }
     }
 
+    /// The view's picture that it is, if it is one.
+    #[must_use]
+    pub fn snapshot(&self) -> Option<&Arc<Snapshot>> {
+        match &self.picture {
+            Source::View(snapshot) => Some(snapshot),
+            Source::Own { .. } => None,
+        }
+    }
+
     /// Mean linear sRGB, row by row from the top.
     #[must_use]
     pub fn mean(&self) -> &[[f32; 3]] {

@@ -293,6 +293,20 @@ mod tests {
     }
 
     #[test]
+    fn errors_need_a_reference_and_verdicts_do_not() {
+        let mut doc = fixture::doc("none");
+        for (reference, measured) in [(ReferenceDoc::None, false), (ReferenceDoc::Pooled, true)] {
+            doc.compare.reference = reference;
+            let experiment = run(&doc, Library::default(), |_| {}).unwrap().experiment;
+            let standings = experiment.rank(MEASURES.iter().collect());
+            assert!(standings.iter().all(|s| s.agreement.is_some()));
+            assert_eq!(standings.iter().any(|s| !s.errors.is_empty()), measured);
+            let curves = (0..3).filter(|view| !experiment.curve(*view, &MEASURES[0]).is_empty());
+            assert_eq!(curves.count() > 0, measured);
+        }
+    }
+
+    #[test]
     fn a_rendered_reference_has_random_numbers_that_no_view_has() {
         let mut doc = fixture::doc("seeds");
         let usual = reference_doc(&doc).unwrap().render.seed;

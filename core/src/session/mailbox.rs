@@ -38,6 +38,7 @@ impl Public {
                 status: Status::Empty,
                 snapshot: None,
                 loading: None,
+                built: 0,
                 notices: Vec::new(),
                 scene: None,
                 first_picture_seconds: None,
@@ -191,6 +192,7 @@ impl Mailbox {
     pub fn publish_built(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| {
             p.state.status = active.status();
+            p.state.built = active.generation;
             p.state.notices.clone_from(&active.probe.scene.notices);
             p.state.scene = Some(active.probe.scene.info.clone());
             p.state.probe = Some(active.probe.clone());
