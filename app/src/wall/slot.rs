@@ -3,6 +3,7 @@
 use crate::lab::Stats;
 use crate::model::{Work, work_after};
 use majorant_core::compare::curve::Checkpoints;
+use majorant_core::film::Snapshot;
 use majorant_core::scene::SceneDoc;
 use majorant_core::session::{Job, Role, Session, ViewId, ViewState};
 use std::sync::Arc;
@@ -17,6 +18,8 @@ pub struct Slot {
     pub rendered: Arc<SceneDoc>,
     /// What the session is doing.
     pub state: ViewState,
+    /// Relative error of a picture.
+    measured: Option<(Arc<Snapshot>, f64)>,
     /// Rates and estimates derived from it.
     pub stats: Stats,
     /// Early pictures, for error curves.
@@ -31,6 +34,7 @@ impl Slot {
             submitted: None,
             rendered: Arc::new(SceneDoc::default()),
             state: session.state(id),
+            measured: None,
             stats: Stats::default(),
             checkpoints: Checkpoints::default(),
         }
@@ -73,11 +77,20 @@ impl Slot {
     /// Takes note of what the session has done.
     pub fn update(&mut self, session: &Session) {
         self.state = session.state(self.id);
-        let render = self.submitted.as_ref().map(|doc| &doc.render);
-        self.stats = render.map(|limits| Stats::new(&self.state, limits)).unwrap_or_default();
-        let current = self.state.snapshot.as_ref().filter(|s| s.generation == self.state.generation);
-        if let Some(snapshot) = current {
-            self.checkpoints.observe(snapshot);
+        let Some(render) = self.submitted.as_ref().map(|doc| &doc.render) else {
+            self.stats = Stats::default();
+            return;
+        };
+        let snapshot = self.state.snapshot.clone().filter(|s| s.generation == self.state.generation);
+        // Takes milliseconds: once per picture, and only if it is asked for.
+        let error = snapshot.as_ref().filter(|_| render.relative_error.is_some()).map(|s| match &self.measured {
+            Some((of, error)) if Arc::ptr_eq(of, s) => (Arc::clone(s), *error),
+            _ => (Arc::clone(s), s.relative_error()),
+        });
+        self.stats = Stats::new(&self.state, render, error.as_ref().map(|(_, error)| *error));
+        self.measured = error;
+        if let Some(snapshot) = snapshot {
+            self.checkpoints.observe(&snapshot);
         }
     }
 }
