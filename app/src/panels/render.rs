@@ -47,7 +47,7 @@ impl Panel for Render {
 }
 
 fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let paused = cx.state.status == Status::Paused;
+    let paused = cx.paused;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let width = (ui.available_width() - 8.0) / 3.0;
@@ -57,11 +57,12 @@ fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
                 cx.commands.push(command);
             }
         };
-        let pausable = matches!(cx.state.status, Status::Rendering | Status::Paused | Status::Building);
         let text = if paused { "Resume" } else { "Pause" };
-        button(ui, pausable, text, "Pause after the running pass, or go on  (P)", Command::TogglePause);
-        button(ui, paused, "Step", "While paused: one sample per pixel  (.)", Command::Step);
-        button(ui, true, "Restart", "Start over from sample 0  (R)", Command::Restart);
+        let tip = "Pause all views and the reference after the running pass, or let all go on  (P)";
+        button(ui, paused || cx.unfinished, text, tip, Command::TogglePause);
+        let tip = "While paused: one sample per pixel of all views and the reference  (.)";
+        button(ui, paused && cx.unfinished, "Step", tip, Command::Step);
+        button(ui, true, "Restart", "Start all views over from sample 0  (R)", Command::Restart);
     });
 }
 
