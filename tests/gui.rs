@@ -11,6 +11,8 @@ mod inspect;
 mod laboratory;
 #[path = "gui/lessons.rs"]
 mod lessons;
+#[path = "gui/provenance.rs"]
+mod provenance;
 #[path = "gui/self_check.rs"]
 mod self_check;
 #[path = "gui/speed.rs"]

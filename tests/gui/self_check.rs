@@ -1,8 +1,9 @@
 //! *Help ▸ Self-check*.
 
-use super::harness::{Lab, click, lab, lab_on, wait};
+use super::harness::{Lab, click, doc, lab, lab_on, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
+use majorant::lab::Command;
 use majorant::lab::self_check::Ending;
 use majorant::model::Source;
 use majorant_core::check::Verdict;
@@ -35,6 +36,16 @@ fn this_scene_is_checked_estimator_against_estimator() {
     lab.check_accessibility();
     click(&mut lab, Role::Button, "Close");
     assert!(!lab.state().self_check().open);
+    // Opened again it is as it was; once the scene is another, what was found is not about it.
+    opened(&mut lab);
+    assert_eq!(lab.state().self_check().rows().len(), all);
+    click(&mut lab, Role::Button, "Close");
+    let mut edited = doc(&lab).clone();
+    edited.medium.scale = 2.0;
+    lab.state_mut().request(Command::Edit(Box::new(edited)));
+    lab.run_steps(2);
+    opened(&mut lab);
+    assert!(lab.state().self_check().rows().is_empty() && lab.state().self_check().ending().is_none());
 }
 
 #[test]

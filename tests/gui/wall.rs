@@ -7,6 +7,7 @@ use egui_kittest::kittest::Queryable;
 use majorant::lab::Command;
 use majorant::model::Source;
 use majorant::view::developer::Sight;
+use majorant::wall::WallEdit;
 use majorant::wall::dock::TABS;
 use majorant::wall::presets::PRESETS;
 use majorant_core::compare::{Against, Verdict, maps};
@@ -117,6 +118,9 @@ fn keys_arrange_the_views() {
 fn every_map_is_drawn_for_every_view() {
     let (mut lab, _directory) = biased();
     wait(&mut lab, "samples", |app| app.wall().slots().iter().all(|s| s.stats.spp >= 4));
+    let reference = ReferenceDoc::Render { estimator: "nee".into(), spp: Some(64), relative_error: None };
+    lab.state_mut().request(Command::Wall(WallEdit::Reference(reference)));
+    lab.run_steps(2);
     for map in maps::MAPS {
         click(&mut lab, Role::ComboBox, "Layer");
         click(&mut lab, Role::Button, map.name);

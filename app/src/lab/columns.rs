@@ -38,6 +38,8 @@ impl LabApp {
                 opened: &opened,
                 state: &self.state,
                 stats: &self.stats,
+                paused: self.wall.is_paused(),
+                unfinished: self.wall.is_unfinished(),
                 latency: &self.latency,
                 factor_curve: &self.factor_curve,
                 settings: &self.settings,

@@ -224,8 +224,8 @@ impl LabApp {
     fn export(&mut self, png: bool, path: PathBuf) {
         // Picture and document of the selected view belong together, whatever hangs and was edited since.
         let found = self.wall.selected_slot().and_then(|slot| {
-            let snapshot = slot.state.snapshot.clone().filter(|s| s.spp > 0 && s.coarse.is_none())?;
-            (snapshot.generation == slot.state.generation).then(|| (snapshot, (*slot.rendered).clone()))
+            let snapshot = slot.picture().filter(|s| s.spp > 0 && s.coarse.is_none())?;
+            Some((snapshot.clone(), (*slot.rendered).clone()))
         });
         let Some((snapshot, doc)) = found else {
             self.messages.fail("There is no picture to export yet. Wait for the first sample per pixel.");

@@ -11,7 +11,7 @@ use crate::wall::presets::PRESETS;
 use crate::wall::{Tool, WallEdit, edited};
 use egui::{Context, ViewportCommand};
 use majorant_core::scene::{Arrangement, SceneDoc};
-use majorant_core::session::{Status, ViewId};
+use majorant_core::session::ViewId;
 use std::path::Path;
 use std::time::Duration;
 
@@ -36,10 +36,7 @@ impl LabApp {
     pub(super) fn update(&mut self, ctx: &Context) {
         let prints = self.developer.take();
         self.wall.update(ctx, &self.session, prints);
-        if let Some(slot) = self.wall.selected_slot() {
-            self.state = slot.state.clone();
-            self.stats = slot.stats.clone();
-        }
+        self.read_selected();
         self.shown = self.wall.hung(Sight::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
         self.latency.cancelled(self.state.generation, self.state.cancelled_seconds);
         if let Some(shown) = &self.shown {
@@ -58,10 +55,20 @@ impl LabApp {
         self.keep_history(ctx);
         self.guard_window(ctx);
         self.submit_if_needed();
+        // What was just submitted has no numbers yet.
+        self.read_selected();
         if let Some(screenshot) = &mut self.screenshot
             && let Some(problem) = screenshot.update(ctx)
         {
             self.messages.fail(problem);
+        }
+    }
+
+    /// Takes over what is known of the selected view.
+    fn read_selected(&mut self) {
+        if let Some(slot) = self.wall.selected_slot() {
+            self.state = slot.state.clone();
+            self.stats = slot.stats.clone();
         }
     }
 
@@ -159,8 +166,8 @@ impl LabApp {
             Command::CloseDialog => (self.dialog, self.after_save) = (None, None),
             Command::Save => self.save_scene(),
             Command::TogglePause => {
-                let paused = self.wall.slots().iter().any(|s| s.state.status == Status::Paused);
-                self.each_view(|session, id| session.set_paused(id, !paused));
+                let paused = self.wall.is_paused();
+                self.wall.set_paused(!paused, &self.session);
             }
             Command::Step => self.each_view(|session, id| session.step(id)),
             Command::Restart => self.each_view(|session, id| session.restart(id)),
@@ -229,7 +236,7 @@ impl LabApp {
                 _ => self.settings.method_column ^= true,
             },
             Command::ToggleShortcuts => self.shortcuts_open ^= true,
-            Command::OpenSelfCheck => self.self_check.open = true,
+            Command::OpenSelfCheck => self.self_check.show(&self.document.resolved()),
             Command::CloseSelfCheck => {
                 self.self_check.cancel();
                 self.self_check.open = false;

@@ -216,6 +216,12 @@ impl LabApp {
         &self.state
     }
 
+    /// Rates and estimates of the selected view.
+    #[must_use]
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
     /// The views.
     #[must_use]
     pub fn wall(&self) -> &Wall {

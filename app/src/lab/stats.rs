@@ -18,6 +18,8 @@ pub struct Stats {
     pub lookups_per_path: Option<f64>,
     /// Share of look-ups at which the extinction exceeded the majorant.
     pub exceeded: Option<f64>,
+    /// Standard error as a share of the image's mean; measured only where it is a limit.
+    pub relative_error: Option<f64>,
     /// Share of the way to the nearest limit, 0 to 1.
     pub progress: Option<f32>,
     /// Time to the nearest limit.
@@ -27,9 +29,10 @@ pub struct Stats {
 }
 
 impl Stats {
-    /// Reads them off a state and the limits that hold for it.
+    /// Reads them off a state and the limits that hold for it. `relative_error` is that of the state's picture, if one of
+    /// the limits asks for it.
     #[must_use]
-    pub fn new(state: &ViewState, limits: &RenderDoc) -> Self {
+    pub fn new(state: &ViewState, limits: &RenderDoc, relative_error: Option<f64>) -> Self {
         // A picture of an older submission says nothing about this one.
         let Some(snapshot) = state.snapshot.as_ref().filter(|s| s.generation == state.generation) else {
             return Self::default();
@@ -41,9 +44,20 @@ impl Stats {
         let by_samples = limits
             .spp
             .map(|limit| (spp / limit.max(1) as f64, spp_per_second.map(|rate| (limit as f64 - spp) / rate)));
+        // Seconds left, at the rate so far, from the share of the way.
+        let left = |progress: f64| (progress > 0.0).then(|| seconds * (1.0 / progress - 1.0));
         let by_time =
             limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
-        let limits = [by_samples, by_time];
+        let by_cpu = limits.cpu_seconds.map(|limit| {
+            let progress = snapshot.cpu_seconds / f64::from(limit).max(1e-9);
+            (progress, left(progress))
+        });
+        // Errors fall with the square root of the time.
+        let by_error = limits.relative_error.zip(relative_error).map(|(limit, error)| {
+            let progress = if error.is_nan() { 0.0 } else { (f64::from(limit) / error).powi(2) };
+            (progress, left(progress))
+        });
+        let limits = [by_samples, by_time, by_cpu, by_error];
         let progress = limits.iter().flatten().map(|(progress, _)| *progress).reduce(f64::max);
         let eta = limits.iter().flatten().filter_map(|(_, eta)| *eta).reduce(f64::min);
         Self {
@@ -52,6 +66,7 @@ impl Stats {
             spp_per_second,
             lookups_per_second: per(lookups, seconds),
             lookups_per_path: per(lookups, snapshot.tally.paths as f64),
+            relative_error,
             exceeded: per(snapshot.tally.exceeded as f64, lookups),
             progress: progress.map(|p| p.clamp(0.0, 1.0) as f32),
             eta_seconds: eta.map(|eta| eta.max(0.0)),
@@ -121,6 +136,7 @@ mod tests {
             status: Status::Rendering,
             ending: None,
             loading: None,
+            built: 3,
             snapshot: Some(Arc::new(snapshot)),
             notices: Vec::new(),
             first_picture_seconds: None,
@@ -133,20 +149,29 @@ mod tests {
     #[test]
     fn the_nearest_limit_counts() {
         let limits = RenderDoc { spp: Some(100), seconds: Some(4.0), ..RenderDoc::default() };
-        let stats = Stats::new(&state(10, 2.0), &limits);
+        let stats = Stats::new(&state(10, 2.0), &limits, None);
         assert_eq!(stats.spp_per_second, Some(5.0));
         assert_eq!(stats.lookups_per_path, Some(10.0));
         assert_eq!(stats.progress, Some(0.5));
         assert_eq!(stats.eta_seconds, Some(2.0));
         let endless = RenderDoc { spp: None, seconds: None, ..limits };
-        assert_eq!(Stats::new(&state(10, 2.0), &endless).eta_seconds, None);
+        assert_eq!(Stats::new(&state(10, 2.0), &endless, None).eta_seconds, None);
+        // A quarter of the CPU time was used in 2 seconds; half the error takes four times as long.
+        let by_cpu = RenderDoc { cpu_seconds: Some(8.0), ..endless.clone() };
+        let stats = Stats::new(&state(10, 2.0), &by_cpu, None);
+        assert_eq!((stats.progress, stats.eta_seconds), (Some(0.25), Some(6.0)));
+        let by_error = RenderDoc { relative_error: Some(0.125), ..endless };
+        let stats = Stats::new(&state(10, 2.0), &by_error, Some(0.25));
+        assert_eq!((stats.progress, stats.eta_seconds), (Some(0.25), Some(6.0)));
+        assert_eq!(Stats::new(&state(10, 2.0), &by_error, Some(f64::NAN)).progress, Some(0.0));
+        assert_eq!(Stats::new(&state(10, 2.0), &by_error, Some(f64::INFINITY)).eta_seconds, None);
     }
 
     #[test]
     fn an_old_picture_has_no_rates() {
         let mut old = state(10, 2.0);
         old.generation = 4;
-        assert_eq!(Stats::new(&old, &RenderDoc::default()), Stats::default());
+        assert_eq!(Stats::new(&old, &RenderDoc::default(), None), Stats::default());
     }
 
     #[test]

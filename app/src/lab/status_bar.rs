@@ -49,6 +49,7 @@ impl LabApp {
     fn activity(&self, palette: &Palette) -> (Color32, String) {
         let stats = &self.stats;
         let rate = stats.spp_per_second.map_or_else(String::new, |r| format!("   {} spp/s", count(r)));
+        let paused = self.wall.is_paused();
         match &self.state.status {
             Status::Empty => (palette.weak, "Nothing to render".into()),
             Status::Building => {
@@ -68,6 +69,11 @@ impl LabApp {
                 let text = format!("Stopped   all {what} after {} spp: no relative error", stats.spp);
                 (palette.warning, text)
             }
+            // The others may still have something to do.
+            Status::Finished if paused => (
+                palette.warning,
+                format!("Paused   finished, {} spp in {}", stats.spp, duration(stats.seconds)),
+            ),
             Status::Finished => {
                 (palette.good, format!("Finished   {} spp in {}", stats.spp, duration(stats.seconds)))
             }

@@ -1,7 +1,7 @@
 //! Numbers in a lesson's text: `{{name}}` stands for what the lab measures now.
 
-use crate::wall::Wall;
 use crate::wall::inspector::Inspector;
+use crate::wall::{Wall, dock};
 use majorant_core::compare::Verdict;
 
 /// Every name that a text may use.
@@ -57,7 +57,8 @@ impl Live<'_> {
 
     fn value(&self, name: &str) -> Option<String> {
         if let Some(name) = name.strip_prefix("ray.") {
-            let bench = self.inspector.ray.errand.newest()?;
+            let ray = &self.inspector.ray;
+            let bench = ray.errand.answer_to(&dock::ray::question(self.wall, ray)?)?;
             let spread = || {
                 let n = bench.estimates.len() as f64;
                 bench.mean[1] * n.sqrt()
@@ -78,7 +79,7 @@ impl Live<'_> {
         let (view, what) = name.split_once('.')?;
         if what == "lost" {
             let which = usize::from(view == "B");
-            let snapshot = self.wall.slots().get(which)?.state.snapshot.as_ref()?;
+            let snapshot = self.wall.slots().get(which)?.picture()?;
             return Some(snapshot.tally.non_finite.to_string());
         }
         let standing = self.standing(view)?;

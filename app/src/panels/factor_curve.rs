@@ -48,6 +48,10 @@ pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             callout(ui, Palette::get(ui).error, error);
         }
         let points = curve.points();
+        if !points.is_empty() && !curve.is_of(cx.draft) {
+            hint(ui, "What was measured is of another scene or estimator, and is shown again with that: measure anew.");
+            return;
+        }
         let Some(one) = points.iter().find(|p| p.factor == 1.0) else {
             if points.is_empty() {
                 hint(ui, "Above 1 look-ups are wasted on null collisions; below 1 noise or bias comes in.");

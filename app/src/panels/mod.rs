@@ -40,6 +40,10 @@ pub struct Cx<'a> {
     pub state: &'a ViewState,
     /// Rates and estimates derived from it.
     pub stats: &'a Stats,
+    /// Whether views and reference are paused.
+    pub paused: bool,
+    /// Whether any of them has not come to its end.
+    pub unfinished: bool,
     /// How soon the window has answered lately.
     pub latency: &'a Latency,
     /// What the majorant's factor costs, as far as it was measured.

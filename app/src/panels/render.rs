@@ -4,9 +4,12 @@ use super::{Column, Cx, Panel};
 use crate::lab::stats::{count, duration};
 use crate::lab::{Command, Latency};
 use crate::theme::Palette;
-use crate::widgets::{Value, badge, callout, hint, optional, row};
+use crate::widgets::{Value, badge, callout, format_number, hint, optional, row};
 use egui::{Align2, Button, Color32, RichText, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
+use majorant_core::film::Snapshot;
+use majorant_core::scene::Limits;
 use majorant_core::session::{Ending, Status};
+use std::sync::Arc;
 
 /// See the [module](self).
 pub struct Render;
@@ -37,13 +40,14 @@ impl Panel for Render {
         progress_ui(ui, cx);
         figures_ui(ui, cx);
         trouble_ui(ui, cx);
-        latency_ui(ui, cx.latency);
+        hint(ui, &stops_at(&cx.draft.render.limits(), cx.stats.relative_error));
         limits_ui(ui, cx);
+        latency_ui(ui, cx.latency);
     }
 }
 
 fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let paused = cx.state.status == Status::Paused;
+    let paused = cx.paused;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let width = (ui.available_width() - 8.0) / 3.0;
@@ -53,11 +57,12 @@ fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
                 cx.commands.push(command);
             }
         };
-        let pausable = matches!(cx.state.status, Status::Rendering | Status::Paused | Status::Building);
         let text = if paused { "Resume" } else { "Pause" };
-        button(ui, pausable, text, "Pause after the running pass, or go on  (P)", Command::TogglePause);
-        button(ui, paused, "Step", "While paused: one sample per pixel  (.)", Command::Step);
-        button(ui, true, "Restart", "Start over from sample 0  (R)", Command::Restart);
+        let tip = "Pause all views and the reference after the running pass, or let all go on  (P)";
+        button(ui, paused || cx.unfinished, text, tip, Command::TogglePause);
+        let tip = "While paused: one sample per pixel of all views and the reference  (.)";
+        button(ui, paused && cx.unfinished, "Step", tip, Command::Step);
+        button(ui, true, "Restart", "Start all views over from sample 0  (R)", Command::Restart);
     });
 }
 
@@ -81,9 +86,7 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let stats = cx.stats;
     let optional = |value: Option<f64>| value.map_or_else(|| "–".into(), count);
     let limit = cx.draft.render.spp.map_or_else(String::new, |limit| format!(" / {limit}"));
-    let limits = &cx.draft.render;
-    let unlimited = limits.spp.is_none() && limits.seconds.is_none();
-    let unknown = if unlimited { "no limit" } else { "–" };
+    let unknown = if cx.draft.render.limits().are_none() { "no limit" } else { "–" };
     let eta = stats.eta_seconds.map_or_else(|| unknown.into(), duration);
     let figures = [
         ("Samples", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
@@ -132,10 +135,15 @@ fn figure_ui(ui: &mut Ui, width: f32, label: &str, value: &str, tip: &str) {
     response.on_hover_text(tip);
 }
 
+/// The picture of what was submitted last.
+fn picture<'a>(cx: &Cx<'a>) -> Option<&'a Arc<Snapshot>> {
+    cx.state.snapshot.as_ref().filter(|s| s.generation == cx.state.generation)
+}
+
 fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let palette = Palette::get(ui);
     if cx.stats.non_finite > 0 {
-        let located = cx.state.snapshot.as_ref().map(|s| s.tally.located.as_slice()).unwrap_or_default();
+        let located = picture(cx).map(|s| s.tally.located.as_slice()).unwrap_or_default();
         let places: Vec<String> =
             located.iter().map(|n| format!("pixel ({}, {}), sample {}", n.x, n.y, n.sample)).collect();
         let tip = format!("Left out of the picture, never hidden. First of them:\n{}", places.join("\n"));
@@ -185,6 +193,25 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
     });
 }
 
+/// When it stops, by all limits that hold: whichever comes first.
+fn stops_at(limits: &Limits, relative_error: Option<f64>) -> String {
+    let number = |x: f32| format_number(x.into());
+    let now = relative_error.filter(|e| e.is_finite());
+    let now = now.map_or_else(String::new, |e| format!(" (now {:.2} %)", 100.0 * e));
+    let all = [
+        limits.spp.map(|n| format!("{n} spp")),
+        limits.seconds.map(|s| format!("{} s", number(s))),
+        limits.cpu_seconds.map(|s| format!("{} s of CPU time", number(s))),
+        limits.relative_error.map(|e| format!("an error of {} %{now}", format_number(100.0 * f64::from(e)))),
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    match all.split_last() {
+        None => "Goes on until it is paused: there is no limit.".into(),
+        Some((only, [])) => format!("Stops at {only}."),
+        Some((last, others)) => format!("Stops at {} or {last}, whichever comes first.", others.join(", ")),
+    }
+}
+
 fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let title = RichText::new("Limits, threads, seed").small();
     egui::CollapsingHeader::new(title).id_salt("limits").show_unindented(ui, |ui| {
@@ -197,15 +224,45 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         optional(ui, "Stop after", (&mut render.seconds, opened.seconds), 60.0, "no time limit", tip, |v| {
             v.unit("s").range(0.1..=1e6).logarithmic()
         });
+        let tip = "Rendering stops after so much CPU time of path tracing, all workers together: what --seconds of \
+                   `majorant compare` gives every estimator";
+        let value = (&mut render.cpu_seconds, opened.cpu_seconds);
+        optional(ui, "CPU time", value, 60.0, "no limit of CPU time", tip, |v| {
+            v.unit("s").range(0.1..=1e6).logarithmic()
+        });
+        let tip = "Rendering stops when the standard error of a pixel, root mean square, is this share of the image's \
+                   mean: 0.01 is 1 %. The error is estimated from the samples themselves: paths too rare to have come \
+                   yet are not in it";
+        let value = (&mut render.relative_error, opened.relative_error);
+        optional(ui, "Error", value, 0.01, "no error limit", tip, |v| v.range(1e-5..=1.0).logarithmic());
         let tip = "Worker threads; the picture does not depend on them";
         optional(ui, "Threads", (&mut render.threads, opened.threads), 1, "one per core", tip, |v| {
             v.range(1.0..=1024.0)
         });
         let seed = Value::new("Seed", &mut render.seed, 0).opened(opened.seed).range(0.0..=9e15);
         seed.tip("Selects the random numbers; nothing else is random").show(ui);
-        if let Some(snapshot) = cx.state.snapshot.as_ref() {
+        if let Some(snapshot) = picture(cx) {
             let cpu = duration(snapshot.cpu_seconds);
             hint(ui, &format!("{} threads, {cpu} of CPU time.", snapshot.threads));
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_that_holds_is_named() {
+        assert!(stops_at(&Limits::default(), None).contains("no limit"));
+        assert_eq!(stops_at(&Limits::samples(64), None), "Stops at 64 spp.");
+        let limits =
+            Limits { spp: Some(64), seconds: Some(2.5), cpu_seconds: Some(20.0), relative_error: Some(0.01) };
+        assert_eq!(
+            stops_at(&limits, Some(0.034)),
+            "Stops at 64 spp, 2.5 s, 20 s of CPU time or an error of 1 % (now 3.40 %), whichever comes first."
+        );
+        let only = Limits { cpu_seconds: Some(20.0), ..Limits::default() };
+        assert_eq!(stops_at(&only, None), "Stops at 20 s of CPU time.");
+    }
 }

@@ -58,6 +58,11 @@ pub struct Order {
 }
 
 impl Order {
+    /// The session's view that has a number in the document.
+    fn id(&self, number: usize) -> Option<ViewId> {
+        self.views.iter().find(|v| v.number == number).map(|v| v.id)
+    }
+
     /// Whether nothing has to be developed anew. Documents and references are told apart by where they lie.
     fn is_like(&self, other: &Self) -> bool {
         let views =
@@ -78,6 +83,10 @@ pub struct Print {
     pub image: ColorImage,
     /// The view's numbers that it was made from; absent for the reference.
     pub snapshot: Option<Arc<Snapshot>>,
+    /// The session's view, if it is one's.
+    pub id: Option<ViewId>,
+    /// The reference that it was made from, if it is one.
+    pub reference: Option<Arc<Reference>>,
     /// What it shows, if it is a map: the map's id, values and range.
     pub map: Option<Arc<MapPrint>>,
 }
@@ -87,6 +96,8 @@ pub struct Print {
 pub struct MapPrint {
     /// Which map.
     pub map: &'static Map,
+    /// What views are held against in it, in words; empty if it needs nothing.
+    pub against: String,
     /// Its values.
     pub values: Vec<f32>,
     /// What its colours stand for.
@@ -285,7 +296,13 @@ impl Darkroom {
                 continue;
             }
             self.pictures.insert(*sight, (key, display.clone()));
-            done.insert(*sight, Print { image: develop(size, pixels, display), snapshot, map: None });
+            let id = match sight {
+                Sight::View(number) => order.id(*number),
+                Sight::Reference | Sight::Difference => None,
+            };
+            let reference = experiment.reference.clone().filter(|_| *sight == Sight::Reference);
+            let image = develop(size, pixels, display);
+            done.insert(*sight, Print { image, snapshot, id, reference, map: None });
         }
         done
     }
@@ -304,20 +321,20 @@ impl Darkroom {
         self.maps = Some((key, order.clone()));
         let values: Vec<_> = sights.iter().filter_map(|s| Some((*s, values(map, *s, experiment)?))).collect();
         let range = Range::of(map.scale, values.iter().map(|(_, (_, v))| v.as_slice()));
+        let against = if map.needs_reference { against(experiment) } else { String::new() };
         let print = |(sight, (snapshot, values)): (Sight, (Arc<Snapshot>, Vec<f32>))| {
             let pixels = values.iter().map(|v| {
                 let [r, g, b] = range.paint(*v);
                 Color32::from_rgb(r, g, b)
             });
             let image = ColorImage::new([snapshot.width, snapshot.height], pixels.collect());
-            (
-                sight,
-                Print {
-                    image,
-                    snapshot: Some(snapshot),
-                    map: Some(Arc::new(MapPrint { map, values, range })),
-                },
-            )
+            let (id, against) = match sight {
+                Sight::View(number) => (order.id(number), against.clone()),
+                // A difference names its two views itself.
+                Sight::Reference | Sight::Difference => (None, String::new()),
+            };
+            let map = Some(Arc::new(MapPrint { map, against, values, range }));
+            (sight, Print { image, snapshot: Some(snapshot), id, reference: None, map })
         };
         // What has no values any more must not go on showing old ones.
         let mut prints: BTreeMap<Sight, Option<Print>> = sights.iter().map(|sight| (*sight, None)).collect();
@@ -326,13 +343,22 @@ impl Darkroom {
     }
 }
 
+/// What the views of an experiment are held against.
+fn against(experiment: &Experiment) -> String {
+    experiment.reference.as_ref().map_or("the mean of the other unbiased views".into(), |r| r.origin.clone())
+}
+
 /// A map's values for a view or a difference, with the picture that they belong to.
 fn values(map: &Map, sight: Sight, experiment: &Experiment) -> Option<(Arc<Snapshot>, Vec<f32>)> {
     let find = |number: usize| experiment.views.iter().find(|(n, _)| *n == number).map(|(_, v)| &v.snapshot);
     let (snapshot, values) = match sight {
         Sight::View(number) => {
             let snapshot = find(number)?;
-            let held = if map.needs_reference { experiment.held_against(number).1 } else { None };
+            let held = match (map.needs_reference, map.is_test()) {
+                (false, _) => None,
+                (true, true) => experiment.held_against(number).1,
+                (true, false) => experiment.measured_against(number),
+            };
             (
                 snapshot,
                 map.values(&Estimate::of(snapshot)?, held.as_deref().map(Reference::estimate).as_ref()),

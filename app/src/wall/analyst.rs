@@ -1,7 +1,10 @@
 //! Computes the comparison's numbers on a thread of its own, so that no frame waits for them.
 
+use super::provenance::Provenance;
 use majorant_core::compare::curve::{Point, PowerLaw};
-use majorant_core::compare::{Agreement, Estimate, Experiment, Opponent, Reference, Standing, agreement};
+use majorant_core::compare::{
+    Agreement, Estimate, Experiment, Opponent, Reference, Standing, View, agreement,
+};
 use majorant_core::measure::{self, Measure, Region};
 use majorant_core::scene::Pair;
 use majorant_core::session::{PixelSample, Probe};
@@ -24,6 +27,8 @@ pub(super) const KEPT: u64 = 100_000;
 /// What shall be analysed.
 #[derive(Clone)]
 pub struct Question {
+    /// What the answer is of.
+    pub of: Provenance,
     /// The views with their pictures.
     pub experiment: Experiment,
     /// A pixel whose samples are wanted.
@@ -60,6 +65,8 @@ pub struct PixelSamples {
 /// What came of it.
 #[derive(Clone, Default)]
 pub struct Analysis {
+    /// What it is of.
+    pub of: Provenance,
     /// One line per view that has a picture.
     pub standings: Vec<Standing>,
     /// The measure of `curves`.
@@ -216,10 +223,14 @@ impl Memory {
         // The relative error is in every table, whatever the curves show.
         let mut measures: Vec<&'static Measure> = measure::find("relmse").into_iter().collect();
         measures.extend(chosen.filter(|m| m.id != "relmse"));
+        let standings = experiment.rank_against(measures, &opponents);
+        let measured = |v: &View| standings.iter().any(|s| s.label == v.label && !s.errors.is_empty());
+        let measured: Vec<bool> = experiment.views.iter().map(|(_, v)| measured(v)).collect();
         Analysis {
-            standings: experiment.rank_against(measures, &opponents),
+            of: question.of.clone(),
+            curves: chosen.map(|m| self.curves(experiment, m, &opponents, &measured)).unwrap_or_default(),
+            standings,
             measure: chosen,
-            curves: chosen.map(|m| self.curves(experiment, m, &opponents)).unwrap_or_default(),
             pair: pair(experiment, compare.pair),
             pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, wanted))),
             seconds: 0.0,
@@ -232,10 +243,11 @@ impl Memory {
         experiment: &Experiment,
         chosen: &'static Measure,
         opponents: &[Opponent<'_>],
+        measured: &[bool],
     ) -> Vec<Curve> {
         let mut curves = Vec::new();
-        for ((number, view), (_, held)) in experiment.views.iter().zip(opponents) {
-            let Some(held) = held else { continue };
+        for (((number, view), (_, held)), measured) in experiment.views.iter().zip(opponents).zip(measured) {
+            let Some(held) = held.as_ref().filter(|_| *measured) else { continue };
             let key = CurveKey {
                 generation: view.checkpoints.generation(),
                 measure: chosen.id,

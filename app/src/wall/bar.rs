@@ -209,10 +209,12 @@ fn reference_menu_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
             reference = to;
         }
     };
-    let tip = "Variances, z-maps and verdicts need none";
+    let tip = "No errors. Variances, efficiencies, z-maps and verdicts need none: verdicts come from the other unbiased views";
     item(ui, *current == ReferenceDoc::None, "None", tip, ReferenceDoc::None);
-    let tip = "For every view the mean of the other unbiased ones, with its standard error";
-    item(ui, *current == ReferenceDoc::Pooled, "The other unbiased views", tip, ReferenceDoc::Pooled);
+    let tip = "For every view the mean of the other unbiased ones; its noise is taken off. A view has no error where \
+               the others are much noisier than it is";
+    let text = "The mean of the other unbiased views";
+    item(ui, *current == ReferenceDoc::Pooled, text, tip, ReferenceDoc::Pooled);
     for view in 0..doc.view_count() {
         let text = format!("View {}: {}", label(view), super::caption::name(doc, view));
         let to = ReferenceDoc::View { view };

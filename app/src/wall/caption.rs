@@ -9,17 +9,19 @@ use crate::view::developer::Sight;
 use egui::{
     Align, Color32, CornerRadius, FontId, Frame, Label, Layout, Margin, Rect, RichText, Ui, UiBuilder,
 };
+use majorant_core::compare::report::words;
 use majorant_core::compare::{Against, Agreement, Standing, Verdict, label};
 use majorant_core::estimator;
+use majorant_core::measure::{Measure, Measured};
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
 
 /// Its height.
 pub(super) const HEIGHT: f32 = 26.0;
 /// Widths from which more and more is said; the rest is left to the ranking.
-const ERROR_FROM: f32 = 120.0;
-const ERROR_NAMED_FROM: f32 = 240.0;
-const VERDICT_FROM: f32 = 340.0;
-const SAMPLES_FROM: f32 = 440.0;
+const ERROR_FROM: f32 = 150.0;
+const ERROR_NAMED_FROM: f32 = 260.0;
+const VERDICT_FROM: f32 = 380.0;
+const SAMPLES_FROM: f32 = 480.0;
 
 /// A number with three digits, as tables show it.
 #[must_use]
@@ -118,7 +120,7 @@ pub(super) fn caption_ui(
                 if doc.view_count() > 1 {
                     menu_ui(ui, view, doc, commands);
                 }
-                numbers_ui(ui, wall, view, rect.width());
+                numbers_ui(ui, wall, doc, view, rect.width());
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     text(ui, RichText::new(name(doc, view)).color(palette.strong));
                 });
@@ -127,7 +129,10 @@ pub(super) fn caption_ui(
         Sight::Reference => {
             chip(ui, "R", palette.weak);
             text(ui, RichText::new("Reference").color(palette.strong));
-            text(ui, RichText::new(wall.reference_state().text).small().color(palette.weak));
+            // The samples of the picture below, not those of one that is still to be shown.
+            let hung = wall.hung(sight).and_then(|hung| hung.reference.as_ref());
+            let origin = hung.map_or_else(|| wall.reference_state().text, |r| r.origin.clone());
+            text(ui, RichText::new(origin).small().color(palette.weak));
         }
         Sight::Difference => {
             let majorant_core::scene::Pair(a, b) = doc.compare.pair;
@@ -161,7 +166,7 @@ pub fn name(doc: &SceneDoc, view: usize) -> String {
     name
 }
 
-fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
+fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32) {
     let palette = Palette::get(ui);
     let analysis = wall.analysis();
     let small =
@@ -171,18 +176,22 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
         let error = analysis.measure.and_then(|m| Some((m, standing.error(m.id)?)));
         let (text, tip) = match error {
             Some((measure, measured)) => (
-                called(measure.name) + &digits(measured.corrected()),
-                format!(
-                    "{}: {}\n± {} from its scatter over pixels",
-                    measure.name,
-                    measure.formula,
-                    digits(measured.error)
-                ),
+                called(measure.name) + &words::quantity(measured.corrected(), measured.uncertainty()),
+                error_tip(measure, measured),
             ),
-            None => (
-                called("σ²") + &digits(standing.variance),
-                "Variance of a pixel's mean, over pixels and channels: needs no reference".into(),
-            ),
+            None => {
+                let efficiency = format!("   1/σ²s {}", digits(standing.efficiency));
+                (
+                    called("σ²")
+                        + &words::quantity(standing.variance, standing.variance_error)
+                        + if width > ERROR_NAMED_FROM { &efficiency } else { "" },
+                    format!(
+                        "Variance of a pixel's mean, over pixels and channels, and efficiency, 1 / (variance · CPU \
+                         seconds): neither needs a reference{}",
+                        not_measured(standing, doc).map_or_else(String::new, |why| format!("\n{why}"))
+                    ),
+                )
+            }
         };
         ui.add(small(text, palette.strong)).on_hover_text(tip);
         if width > VERDICT_FROM {
@@ -190,9 +199,35 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, view: usize, width: f32) {
             ui.add(small(text, colour)).on_hover_text(against(standing));
         }
     }
-    let Some(slot) = wall.slots().get(view) else { return };
-    if width > SAMPLES_FROM || (width > ERROR_FROM && analysis.standing(&label(view)).is_none()) {
-        ui.add(small(format!("{} spp", count(slot.stats.spp as f64)), palette.weak));
+    // Beside numbers, those samples that they are about; else those of the picture below.
+    let standing = analysis.standing(&label(view));
+    let picture = wall.hung(Sight::View(view)).and_then(|hung| hung.snapshot.as_ref());
+    let current = wall.slots().get(view).map(|slot| slot.state.generation);
+    let shown = picture.filter(|s| Some(s.generation) == current).map_or(0, |s| s.spp);
+    let spp = standing.map_or(shown, |s| s.spp);
+    if width > SAMPLES_FROM || (width > ERROR_FROM && standing.is_none()) {
+        ui.add(small(format!("{} spp", count(spp as f64)), palette.weak));
+    }
+}
+
+/// What an error is, and what its ± is made of.
+pub(super) fn error_tip(measure: &Measure, measured: &Measured) -> String {
+    format!(
+        "{}: {}\n± {} from its scatter over pixels, and {} for the reference's own noise, which is taken off",
+        measure.name,
+        measure.formula,
+        digits(measured.error),
+        digits(measured.reference_share)
+    )
+}
+
+/// Why a view that is compared has no error, if there is something to be said.
+pub(super) fn not_measured(standing: &Standing, doc: &SceneDoc) -> Option<&'static str> {
+    match (&doc.compare.reference, &standing.against) {
+        (ReferenceDoc::Pooled, Against::Others(_)) if standing.errors.is_empty() => Some(
+            "No error: the noise of the other views is not known well enough, or much larger than this view's own",
+        ),
+        _ => None,
     }
 }
 

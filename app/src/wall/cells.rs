@@ -15,7 +15,7 @@ use egui::{
 };
 use majorant_core::compare::label;
 use majorant_core::estimator;
-use majorant_core::scene::{Arrangement, Camera, CameraDoc, Pair, SceneDoc};
+use majorant_core::scene::{Arrangement, Camera, CameraDoc, Pair, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
 
 /// Gap between pictures.
@@ -202,6 +202,14 @@ impl Wall {
         let area = Rect::from_min_size(canvas.min + vec2(10.0, 8.0), vec2(canvas.width() - 20.0, 22.0));
         let mut child =
             ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
+        if sight == Sight::Reference && self.hung(sight).is_none() {
+            let state = self.reference_state();
+            let text = state.problem.unwrap_or_else(|| {
+                let n = majorant_core::compare::LEAST_SAMPLES;
+                format!("It is shown, and errors are measured, from {n} samples per pixel on.")
+            });
+            return empty_ui(ui, canvas, "No reference yet", &text);
+        }
         if let Sight::View(view) = sight {
             let own = doc.view_doc(view);
             let bias = own.as_ref().and_then(|d| estimator::find(&d.estimator.id)?.bias(d));
@@ -223,7 +231,9 @@ impl Wall {
             }
         }
         if let Some(map) = self.map().filter(|_| self.hung(sight).is_none_or(|h| h.map.is_none())) {
+            let unchosen = doc.compare.reference == ReferenceDoc::None && !map.is_test();
             let text = match (map.needs_reference, sight) {
+                (true, Sight::View(_)) if unchosen => "Errors need a reference: choose one above.",
                 (true, Sight::View(_)) => {
                     "Nothing to hold this view against yet: choose a reference above, or add a view that shows the \
                      same image."

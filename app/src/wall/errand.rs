@@ -81,6 +81,16 @@ impl<Q: PartialEq + Clone, A: Send + Sync + 'static> Errand<Q, A> {
         Some((Arc::clone(answer.as_ref()?), of == question))
     }
 
+    /// The answer to this question, if it is the newest.
+    #[must_use]
+    pub fn answer_to(&self, question: &Q) -> Option<&Arc<A>>
+    where
+        Q: PartialEq,
+    {
+        let (of, answer) = self.done.as_ref()?;
+        answer.as_ref().filter(|_| of == question)
+    }
+
     /// The newest answer, whatever it is of.
     #[must_use]
     pub fn newest(&self) -> Option<&Arc<A>> {

@@ -7,6 +7,8 @@ use egui::{Align2, Color32, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 
 /// Its height.
 pub(super) const HEIGHT: f32 = 40.0;
+/// Width from which it says what views are held against.
+const WIDE: f32 = 760.0;
 /// Steps of the gradient.
 const STEPS: usize = 128;
 
@@ -29,7 +31,13 @@ pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapPrint) {
         font.clone(),
         palette.strong,
     );
-    let left = (name.right() + 24.0).max(rect.left() + 130.0);
+    let mut named = name.right();
+    if !print.against.is_empty() && rect.width() > WIDE {
+        let against = format!("against {}", print.against);
+        let at = name.right_center() + vec2(10.0, 0.0);
+        named = painter.text(at, Align2::LEFT_CENTER, against, font.clone(), palette.weak).right();
+    }
+    let left = (named + 24.0).max(rect.left() + 130.0);
     let bar = Rect::from_min_max(
         egui::pos2(left, rect.top() + 6.0),
         egui::pos2(rect.right() - 40.0, rect.top() + 18.0),
@@ -51,5 +59,8 @@ pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapPrint) {
         let text = digits(range.value(at).into());
         painter.text(egui::pos2(x, bar.bottom() + 4.0), Align2::CENTER_TOP, text, font.clone(), palette.text);
     }
-    response.on_hover_text(format!("{}\nAll views share the range; magenta is no number.", map.formula));
+    let against =
+        if print.against.is_empty() { String::new() } else { format!("\nHeld against {}.", print.against) };
+    response
+        .on_hover_text(format!("{}{against}\nAll views share the range; magenta is no number.", map.formula));
 }

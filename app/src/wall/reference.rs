@@ -1,7 +1,7 @@
 //! The reference of the comparison: rendered in the background, read from a file, or a view's picture.
 
 use super::slot::Slot;
-use majorant_core::compare::{Reference, label};
+use majorant_core::compare::{LEAST_SAMPLES, Reference, label, reference_doc};
 use majorant_core::estimator;
 use majorant_core::film::Snapshot;
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
@@ -12,6 +12,22 @@ use std::sync::Arc;
 /// The session's view for a reference that is rendered.
 const BACKGROUND: ViewId = ViewId(u32::MAX);
 
+/// Identity of what errors are measured against: numbers against another one are not shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReferenceId {
+    /// Nothing was chosen.
+    #[default]
+    None,
+    /// The other unbiased views.
+    Pooled,
+    /// A view's or a background render's picture, by its submission.
+    Submission(u64),
+    /// A file, by how many were read before it.
+    File(u64),
+    /// What was chosen has no picture yet.
+    Awaited,
+}
+
 /// See the [module](self).
 #[derive(Default)]
 pub struct ReferenceKeeper {
@@ -20,10 +36,14 @@ pub struct ReferenceKeeper {
     /// What the newest picture was made from.
     made_from: Option<Arc<Snapshot>>,
     picture: Option<Arc<Reference>>,
+    /// Files that were read so far.
+    files: u64,
 }
 
 struct FileReference {
     path: PathBuf,
+    /// How many were read before it.
+    serial: u64,
     read: Option<Result<Arc<Reference>, String>>,
     /// Whether only the person who chose it says that it shows this scene.
     trusted: bool,
@@ -47,11 +67,11 @@ impl ReferenceKeeper {
         doc: &SceneDoc,
         base: &Path,
         resolved: impl Fn(&SceneDoc) -> SceneDoc,
-        session: &Session,
+        (session, paused): (&Session, bool),
     ) -> Option<PathBuf> {
-        match doc.reference_doc() {
+        match reference_doc(doc) {
             Some(wanted) => {
-                let slot = self.rendered.get_or_insert_with(|| Slot::new(BACKGROUND, session));
+                let slot = self.rendered.get_or_insert_with(|| Slot::paused(BACKGROUND, session, paused));
                 slot.submit(&wanted, resolved, Role::Background, session);
             }
             None => {
@@ -68,7 +88,7 @@ impl ReferenceKeeper {
         if self.file.as_ref().is_some_and(|known| known.path == path) {
             return None;
         }
-        self.file = Some(FileReference { path: path.clone(), read: None, trusted: false });
+        self.file = Some(FileReference { path: path.clone(), serial: 0, read: None, trusted: false });
         Some(path)
     }
 
@@ -94,7 +114,28 @@ impl ReferenceKeeper {
     /// A file was read, or not.
     pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
         if let Some(file) = self.file.as_mut().filter(|f| f.path == path) {
-            file.read = Some(read.map(Arc::new));
+            self.files += 1;
+            (file.serial, file.read) = (self.files, Some(read.map(Arc::new)));
+        }
+    }
+
+    /// The view that renders it, if one does.
+    #[must_use]
+    pub fn rendered(&self) -> Option<&Slot> {
+        self.rendered.as_ref()
+    }
+
+    /// Which picture numbers are measured against now.
+    #[must_use]
+    pub fn identity(&self, doc: &SceneDoc) -> ReferenceId {
+        match (&doc.compare.reference, &self.picture) {
+            (ReferenceDoc::None, _) => ReferenceId::None,
+            (ReferenceDoc::Pooled, _) => ReferenceId::Pooled,
+            (_, None) => ReferenceId::Awaited,
+            (ReferenceDoc::File { .. }, Some(_)) => {
+                ReferenceId::File(self.file.as_ref().map_or(0, |f| f.serial))
+            }
+            (_, Some(picture)) => ReferenceId::Submission(picture.snapshot().map_or(0, |s| s.generation)),
         }
     }
 
@@ -107,18 +148,21 @@ impl ReferenceKeeper {
         let live = match &doc.compare.reference {
             ReferenceDoc::View { view } => views.get(*view).map(|s| (s, format!("view {}", label(*view)))),
             ReferenceDoc::Render { estimator, .. } => self.rendered.as_ref().map(|s| (s, name(estimator))),
-            _ => None,
+            ReferenceDoc::None | ReferenceDoc::Pooled | ReferenceDoc::File { .. } => None,
         };
         match live {
             Some((slot, origin)) => {
-                let usable =
-                    slot.state.snapshot.clone().filter(|s| {
-                        s.spp >= 3 && s.coarse.is_none() && s.generation == slot.state.generation
+                let usable = slot.picture().cloned().filter(|s| s.spp >= LEAST_SAMPLES && s.coarse.is_none());
+                let same = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
+                let named =
+                    self.picture.as_ref().is_none_or(|known| known.origin.starts_with(&format!("{origin},")));
+                if !(same && named) {
+                    // No view may have its random numbers, whatever becomes of the document meanwhile.
+                    let seed = slot.rendered.render.seed;
+                    self.picture = usable.as_ref().map(|s| {
+                        let origin = format!("{origin}, {} spp", s.spp);
+                        Arc::new(Reference::of(s, origin).with_seed(seed))
                     });
-                let known = self.made_from.as_ref().map(Arc::as_ptr) == usable.as_ref().map(Arc::as_ptr);
-                if !known {
-                    let origin = |spp: u64| format!("{origin}, {spp} spp");
-                    self.picture = usable.as_ref().map(|s| Arc::new(Reference::of(s, origin(s.spp))));
                     self.made_from = usable;
                 }
             }
@@ -136,7 +180,8 @@ impl ReferenceKeeper {
             && read.target.is_none()
         {
             Arc::make_mut(read).target = Some(target.to_owned());
-            file.trusted = true;
+            self.files += 1;
+            (file.trusted, file.serial) = (true, self.files);
         }
     }
 
@@ -146,23 +191,35 @@ impl ReferenceKeeper {
         self.picture.as_ref()
     }
 
+    /// Whether a picture is of what errors are measured against, if perhaps an earlier one.
+    #[must_use]
+    pub fn is_source_of(&self, shown: Option<&Arc<Reference>>) -> bool {
+        let Some((now, shown)) = self.picture.as_ref().zip(shown) else { return false };
+        let submission = |r: &Reference| r.snapshot().map(|s| s.generation);
+        Arc::ptr_eq(now, shown) || (submission(now).is_some() && submission(now) == submission(shown))
+    }
+
     /// What there is to say about it.
     #[must_use]
     pub fn state(&self, doc: &SceneDoc, target: Option<&str>) -> ReferenceState {
         let plain = |text: &str| ReferenceState { text: text.into(), problem: None, progress: None };
         match &doc.compare.reference {
             ReferenceDoc::None => plain("none"),
-            ReferenceDoc::Pooled => plain("the other unbiased views"),
-            ReferenceDoc::View { view } => plain(&format!("view {}", label(*view))),
+            ReferenceDoc::Pooled => plain("mean of the other unbiased views"),
+            ReferenceDoc::View { view } => plain(&match &self.picture {
+                Some(picture) => picture.origin.clone(),
+                None => format!("view {}, awaited", label(*view)),
+            }),
             ReferenceDoc::Render { estimator, .. } => {
-                let Some(slot) = &self.rendered else { return plain(&name(estimator)) };
-                let mut state = plain(&format!("{}, {} spp", name(estimator), slot.stats.spp));
+                let awaited = format!("{}, awaited", name(estimator));
+                let mut state = plain(self.picture.as_ref().map_or(&awaited, |picture| &picture.origin));
+                let Some(slot) = &self.rendered else { return state };
                 match &slot.state.status {
                     Status::Failed(problem) => state.problem = Some(problem.clone()),
                     Status::Finished => {
                         state.problem = slot.state.ending.and_then(Ending::warning).map(str::to_owned);
                     }
-                    _ => state.progress = Some(progress(doc, slot)),
+                    _ => state.progress = Some(slot.stats.progress.unwrap_or(0.0)),
                 }
                 state
             }
@@ -197,19 +254,6 @@ impl ReferenceKeeper {
             }
         }
     }
-}
-
-/// How far a rendered reference is to the nearest of its limits.
-fn progress(doc: &SceneDoc, slot: &Slot) -> f32 {
-    let by_samples = slot.stats.progress.unwrap_or(0.0);
-    let by_error = match (&doc.compare.reference, &slot.state.snapshot) {
-        // Errors fall with the square root of the time.
-        (ReferenceDoc::Render { relative_error: Some(wanted), .. }, Some(snapshot)) if snapshot.spp > 1 => {
-            (f64::from(*wanted) / snapshot.relative_error()).powi(2) as f32
-        }
-        _ => 0.0,
-    };
-    by_samples.max(by_error).clamp(0.0, 1.0)
 }
 
 fn name(id: &str) -> String {

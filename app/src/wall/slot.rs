@@ -3,8 +3,9 @@
 use crate::lab::Stats;
 use crate::model::{Work, work_after};
 use majorant_core::compare::curve::Checkpoints;
+use majorant_core::film::Snapshot;
 use majorant_core::scene::SceneDoc;
-use majorant_core::session::{Job, Role, Session, ViewId, ViewState};
+use majorant_core::session::{Job, Probe, Role, Session, Status, ViewId, ViewState};
 use std::sync::Arc;
 
 /// One view of the document as the session renders it.
@@ -15,8 +16,12 @@ pub struct Slot {
     submitted: Option<SceneDoc>,
     /// The same with file names resolved.
     pub rendered: Arc<SceneDoc>,
-    /// What the session is doing.
+    /// What the session was last seen doing.
     pub state: ViewState,
+    /// What `state.scene` and `state.notices` are of.
+    built: Option<Arc<SceneDoc>>,
+    /// Relative error of a picture.
+    measured: Option<(Arc<Snapshot>, f64)>,
     /// Rates and estimates derived from it.
     pub stats: Stats,
     /// Early pictures, for error curves.
@@ -24,6 +29,12 @@ pub struct Slot {
 }
 
 impl Slot {
+    /// A view that renders nothing yet, and nothing until it is told to go on if the session's other views are `paused`.
+    pub fn paused(id: ViewId, session: &Session, paused: bool) -> Self {
+        session.set_paused(id, paused);
+        Self::new(id, session)
+    }
+
     /// A view that renders nothing yet.
     pub fn new(id: ViewId, session: &Session) -> Self {
         Self {
@@ -31,6 +42,8 @@ impl Slot {
             submitted: None,
             rendered: Arc::new(SceneDoc::default()),
             state: session.state(id),
+            built: None,
+            measured: None,
             stats: Stats::default(),
             checkpoints: Checkpoints::default(),
         }
@@ -63,6 +76,26 @@ impl Slot {
             }
         }
         self.submitted = Some(wanted.clone());
+        // What is known of the submission before must not be read as this one's.
+        self.update(session);
+    }
+
+    /// The newest picture of what was submitted last; an older submission's is none.
+    #[must_use]
+    pub fn picture(&self) -> Option<&Arc<Snapshot>> {
+        self.state.snapshot.as_ref().filter(|s| s.generation == self.state.generation)
+    }
+
+    /// What traces the paths of the submission that is rendered; none until its scene is built.
+    #[must_use]
+    pub fn probe(&self) -> Option<&Probe> {
+        self.state.probe.as_ref().filter(|_| self.state.built == self.state.generation)
+    }
+
+    /// Whether there is anything left to render, were it not paused.
+    #[must_use]
+    pub fn is_unfinished(&self) -> bool {
+        matches!(self.state.status, Status::Building | Status::Rendering | Status::Paused)
     }
 
     /// Starts over at the next submission, whatever changed.
@@ -73,13 +106,35 @@ impl Slot {
     /// Takes note of what the session has done.
     pub fn update(&mut self, session: &Session) {
         self.state = session.state(self.id);
-        let render = self.submitted.as_ref().map(|doc| &doc.render);
-        self.stats = render.map(|limits| Stats::new(&self.state, limits)).unwrap_or_default();
-        let current = self.state.snapshot.as_ref().filter(|s| s.generation == self.state.generation);
-        if let Some(snapshot) = current {
-            self.checkpoints.observe(snapshot);
+        if self.state.built == self.state.generation {
+            self.built = Some(Arc::clone(&self.rendered));
+        } else if self.built.as_ref().is_none_or(|built| !same_files(built, &self.rendered)) {
+            (self.state.scene, self.state.notices) = (None, Vec::new());
+        }
+        let Some(render) = self.submitted.as_ref().map(|doc| &doc.render) else {
+            self.stats = Stats::default();
+            return;
+        };
+        let snapshot = self.picture().cloned();
+        // Takes milliseconds: once per picture, and only if it is asked for.
+        let error =
+            snapshot.as_ref().filter(|_| render.relative_error.is_some()).map(|s| match &self.measured {
+                Some((of, error)) if Arc::ptr_eq(of, s) => (Arc::clone(s), *error),
+                _ => (Arc::clone(s), s.relative_error()),
+            });
+        self.stats = Stats::new(&self.state, render, error.as_ref().map(|(_, error)| *error));
+        self.measured = error;
+        if let Some(snapshot) = snapshot {
+            self.checkpoints.observe(&snapshot);
         }
     }
+}
+
+/// Whether what building says of one document describes the other: it is about what was read.
+fn same_files(a: &SceneDoc, b: &SceneDoc) -> bool {
+    a.medium.density == b.medium.density
+        && a.medium.phase == b.medium.phase
+        && a.lights.len() == b.lights.len()
 }
 
 /// Assigns slots to wanted documents: views that were moved, removed or copied go on rendering, only what

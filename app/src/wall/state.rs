@@ -1,11 +1,16 @@
 //! What the wall holds between frames.
 
+mod pictures;
+
+pub use pictures::Hung;
+
 use super::analyst::{Analysis, Analyst, KEPT, PickedPixel, Question};
+use super::provenance::Provenance;
 use super::reference::{ReferenceKeeper, ReferenceState};
 use super::slot::{Slot, assign};
-use crate::view::developer::{MapPrint, Order, OrderedView, Print, Sight};
+use crate::view::developer::{Order, OrderedView, Print, Sight};
 use crate::view::image_view::ImageView;
-use egui::{Context, TextureFilter, TextureHandle, TextureOptions};
+use egui::Context;
 use majorant_core::compare::maps;
 use majorant_core::compare::{Experiment, Reference, View, label};
 use majorant_core::film::Snapshot;
@@ -15,13 +20,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
-const TEXTURE: TextureOptions = TextureOptions {
-    magnification: TextureFilter::Nearest,
-    minification: TextureFilter::Linear,
-    ..TextureOptions::LINEAR
-};
-
 /// What a drag on a picture does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
@@ -30,16 +28,6 @@ pub enum Tool {
     Camera,
     /// Draws the box that numbers are about.
     Region,
-}
-
-/// A print on the graphics card.
-pub struct Hung {
-    /// The pixels.
-    pub texture: TextureHandle,
-    /// The numbers behind them; absent for the reference.
-    pub snapshot: Option<Arc<Snapshot>>,
-    /// What it shows, if it is a map.
-    pub map: Option<Arc<MapPrint>>,
 }
 
 /// The views, the pictures of them that hang, and the numbers about them.
@@ -54,6 +42,10 @@ pub struct Wall {
     reference: ReferenceKeeper,
     analyst: Analyst,
     analysis: Arc<Analysis>,
+    /// The part of it that describes what is shown.
+    current: Arc<Analysis>,
+    /// Whether nothing is rendered until it is told to go on: views and reference alike.
+    paused: bool,
     /// What the analyst was last asked about.
     asked: Option<Asked>,
     hung: BTreeMap<Sight, Hung>,
@@ -104,6 +96,8 @@ impl Wall {
             reference: ReferenceKeeper::default(),
             analyst: Analyst::new(repaint)?,
             analysis: Arc::default(),
+            current: Arc::default(),
+            paused: false,
             asked: None,
             hung: BTreeMap::new(),
             zoom: ImageView::FIT,
@@ -129,12 +123,13 @@ impl Wall {
         }
         (self.doc, self.forgotten) = (Arc::new(doc.clone()), false);
         let wanted = doc.view_docs();
-        let next_id = &mut self.next_id;
+        let (next_id, paused) = (&mut self.next_id, self.paused);
         let (slots, left) = assign(std::mem::take(&mut self.slots), &wanted, || {
             *next_id += 1;
-            Slot::new(ViewId(*next_id), session)
+            Slot::paused(ViewId(*next_id), session, paused)
         });
         self.slots = slots;
+        self.rehang();
         for gone in left {
             session.remove(gone.id);
         }
@@ -143,7 +138,29 @@ impl Wall {
             slot.submit(wanted, &resolved, Role::Contender, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
-        self.reference.submit(doc, base, resolved, session)
+        let file = self.reference.submit(doc, base, resolved, (session, self.paused));
+        self.refresh(session);
+        file
+    }
+
+    /// Whether nothing is rendered until it is told to go on.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// Whether any view or the reference has not come to its end.
+    #[must_use]
+    pub fn is_unfinished(&self) -> bool {
+        self.slots.iter().chain(self.reference.rendered()).any(Slot::is_unfinished)
+    }
+
+    /// Pauses every view and the reference, those that are still to come as well, or lets all go on.
+    pub fn set_paused(&mut self, paused: bool, session: &Session) {
+        self.paused = paused;
+        for id in self.ids() {
+            session.set_paused(id, paused);
+        }
     }
 
     /// Everything starts over at the next submission, as for another scene.
@@ -161,8 +178,6 @@ impl Wall {
         for slot in &mut self.slots {
             slot.update(session);
         }
-        let target = self.target();
-        self.reference.update(&self.doc, &self.slots, target.as_deref(), session);
         for (sight, print) in prints {
             match print {
                 Some(print) => self.hang(ctx, sight, print),
@@ -174,29 +189,13 @@ impl Wall {
         if let Some(analysis) = self.analyst.take() {
             self.analysis = analysis;
         }
+        self.refresh(session);
         self.ask();
-    }
-
-    fn hang(&mut self, ctx: &Context, sight: Sight, print: Print) {
-        let Print { image, snapshot, map } = print;
-        match self.hung.get_mut(&sight) {
-            Some(hung) => {
-                hung.texture.set(image, TEXTURE);
-                (hung.snapshot, hung.map) = (snapshot, map);
-            }
-            None => {
-                let texture = ctx.load_texture(format!("{sight:?}"), image, TEXTURE);
-                self.hung.insert(sight, Hung { texture, snapshot, map });
-            }
-        }
     }
 
     /// Names the image that view A shows.
     fn target(&self) -> Option<String> {
-        let current = self.slots.first().and_then(|s| {
-            let snapshot = s.state.snapshot.as_ref()?;
-            (snapshot.generation == s.state.generation).then(|| snapshot.target.clone())
-        });
+        let current = self.slots.first().and_then(Slot::picture).map(|snapshot| snapshot.target.clone());
         current.filter(|t| !t.is_empty())
     }
 
@@ -218,11 +217,15 @@ impl Wall {
         }
         self.asked = Some(asking);
         let probes = || {
-            let probe = |(i, s): (usize, &Slot)| Some((i, s.state.probe.clone()?));
+            let probe = |(i, s): (usize, &Slot)| Some((i, s.probe()?.clone()));
             self.slots.iter().enumerate().filter_map(probe).collect()
         };
         let pixel = self.picked.map(|at| PickedPixel { at, probes: probes() });
-        self.analyst.ask(Question { experiment, pixel });
+        let of = Provenance {
+            views: self.slots.iter().map(|slot| Some(slot.state.generation)).collect(),
+            ..self.provenance()
+        };
+        self.analyst.ask(Question { of, experiment, pixel });
     }
 
     /// Whether the newest analysis has not yet traced all samples of the picked pixel.
@@ -239,11 +242,9 @@ impl Wall {
     #[must_use]
     pub fn experiment(&self) -> Experiment {
         let view = |(i, slot): (usize, &Slot)| {
-            let snapshot = slot.state.snapshot.clone()?;
-            let current = snapshot.generation == slot.state.generation && snapshot.coarse.is_none();
+            let snapshot = slot.picture().filter(|s| s.coarse.is_none())?.clone();
             let checkpoints = Arc::new(slot.checkpoints.clone());
-            let doc = Arc::clone(&slot.rendered);
-            current.then(|| (i, View { label: label(i), doc, snapshot, checkpoints }))
+            Some((i, View { label: label(i), doc: Arc::clone(&slot.rendered), snapshot, checkpoints }))
         };
         Experiment {
             doc: Arc::clone(&self.doc),
@@ -259,9 +260,10 @@ impl Wall {
             return vec![Sight::Difference];
         }
         let mut sights: Vec<Sight> = (0..self.slots.len()).map(Sight::View).collect();
-        // A view that is the reference is on the wall already.
-        let own = !matches!(self.doc.compare.reference, ReferenceDoc::View { .. });
-        if own && self.reference.picture().is_some() && self.map().is_none() {
+        // A view that is the reference is on the wall already. Others have their place before they have a picture.
+        let own =
+            matches!(self.doc.compare.reference, ReferenceDoc::Render { .. } | ReferenceDoc::File { .. });
+        if own && self.map().is_none() {
             sights.push(Sight::Reference);
         }
         sights
@@ -333,20 +335,10 @@ impl Wall {
         self.slots.get(self.selected)
     }
 
-    /// The newest numbers.
+    /// The newest numbers, as far as they describe what is shown: see [`Provenance`].
     #[must_use]
     pub fn analysis(&self) -> &Arc<Analysis> {
-        &self.analysis
-    }
-
-    /// A picture on the wall; none if what hangs is a map that is not wanted now.
-    #[must_use]
-    pub fn hung(&self, sight: Sight) -> Option<&Hung> {
-        let wanted = self.map().map(|map| map.id);
-        self.hung.get(&sight).filter(|hung| {
-            let map = hung.map.as_ref().map(|print| print.map.id);
-            map.is_none() || map == wanted || wanted.is_none()
-        })
+        &self.current
     }
 
     /// A reference file is read again, whatever is known of it.
@@ -359,6 +351,12 @@ impl Wall {
     #[must_use]
     pub fn ids(&self) -> Vec<ViewId> {
         self.slots.iter().map(|slot| slot.id).chain(self.reference.id()).collect()
+    }
+
+    /// The view of the session that renders the reference, if one does.
+    #[must_use]
+    pub fn rendered_reference(&self) -> Option<&Slot> {
+        self.reference.rendered()
     }
 
     /// What there is to say about the reference.

@@ -97,9 +97,17 @@ impl Experiment {
         self.rank_against(measures, &self.opponents())
     }
 
+    /// Whether errors are measured: against a reference, or against the mean of the other unbiased views if that was
+    /// chosen. Without either, variances and verdicts are all there is.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.reference.is_some() || self.doc.compare.reference == ReferenceDoc::Pooled
+    }
+
     /// The table, with what [`Self::opponents`] has found: pooled pictures are dear.
     #[must_use]
     pub fn rank_against(&self, measures: Vec<&'static Measure>, opponents: &[Opponent<'_>]) -> Vec<Standing> {
+        let measures = if self.has_errors() { measures } else { Vec::new() };
         ranking::rank(&self.contenders(), &self.question(measures), opponents)
     }
 
@@ -116,11 +124,21 @@ impl Experiment {
         ranking::opponent(&self.contenders(), place, &self.question(Vec::new()))
     }
 
+    /// What the errors of a view are measured against, by its number: [`Self::held_against`] as far as it is known well
+    /// enough for that ([`ranking::can_measure`]); none without a reference.
+    #[must_use]
+    pub fn measured_against(&self, view: usize) -> Option<Cow<'_, Reference>> {
+        let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v)?;
+        let opponent = self.held_against(view);
+        let usable = self.has_errors() && ranking::can_measure(&found.snapshot, &opponent, self.region());
+        opponent.1.filter(|_| usable)
+    }
+
     /// The error curve of a view against the reference; empty without one.
     #[must_use]
     pub fn curve(&self, view: usize, measure: &Measure) -> Vec<Point> {
         let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v);
-        let (Some(found), (_, Some(held))) = (found, self.held_against(view)) else { return Vec::new() };
+        let (Some(found), Some(held)) = (found, self.measured_against(view)) else { return Vec::new() };
         let kept = found.checkpoints.kept();
         kept.iter().filter_map(|c| c.point(measure, &held, self.region())).collect()
     }

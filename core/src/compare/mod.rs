@@ -26,6 +26,6 @@ pub use agreement::{ALPHA, Agreement, Verdict, Worst, agreement};
 pub use estimate::{Estimate, RegionNoise};
 pub use experiment::{Experiment, View, label, view_colour};
 pub use open::{ReferenceError, open, seed_of};
-pub use ranking::{Against, Contender, Opponent, Question, Standing, opponents, rank};
+pub use ranking::{Against, Contender, Opponent, Question, Standing, can_measure, opponents, rank};
 pub use reference::Reference;
-pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, run};
+pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, reference_doc, run};

@@ -179,11 +179,12 @@ fn efficiency(view: &Contender<'_>, region: Option<Region>) -> Option<Efficiency
 fn standing(
     view: &Contender<'_>,
     index: usize,
-    (against, held): &Opponent<'_>,
+    opponent: &Opponent<'_>,
     question: &Question<'_>,
     baseline: Option<(Efficiency, &str)>,
 ) -> Option<Standing> {
     let snapshot = view.snapshot;
+    let (against, held) = opponent;
     let estimate = Estimate::of(snapshot)?;
     let region = region_of(question.region, snapshot);
     let noise = RegionNoise::of(&estimate, region, |_| true);
@@ -201,7 +202,9 @@ fn standing(
         None => (f64::NAN, [f64::NAN; 2]),
     };
     let agreement = held.as_ref().and_then(|r| agreement(&estimate, &r.estimate(), region));
-    let errors = held.as_ref().map(|r| errors(&estimate, r, region, &question.measures)).unwrap_or_default();
+    let usable = !question.measures.is_empty() && can_measure(snapshot, opponent, question.region);
+    let held = held.as_ref().filter(|_| usable);
+    let errors = held.map(|r| errors(&estimate, r, region, &question.measures)).unwrap_or_default();
     let pixels = ((region.x1 - region.x0) * (region.y1 - region.y0)) as u64;
     Some(Standing {
         label: view.label.to_owned(),
@@ -226,6 +229,26 @@ fn standing(
         pixels,
         excluded: pixels - noise.pixels,
     })
+}
+
+/// The relative standard error up to which the noise of other views counts as known.
+const KNOWN: f64 = 0.25;
+/// The most variance that the mean of the other views may have over that of the view.
+const WORSE: f64 = 2.0;
+
+/// Whether a view's errors can be measured against its opponent. A reference was chosen for it, and its noise stands
+/// beside every error. The mean of the other views has to have noise that is known and about as low as the view's: what is
+/// measured against a much worse picture is that picture's noise.
+#[must_use]
+pub fn can_measure(view: &Snapshot, (against, held): &Opponent<'_>, region: Option<Region>) -> bool {
+    let (Some(held), Some(estimate)) = (held, Estimate::of(view)) else { return false };
+    if !matches!(against, Against::Others(_)) {
+        return true;
+    }
+    let region = region_of(region, view);
+    let noise = |estimate: &Estimate<'_>| RegionNoise::of(estimate, region, |_| true).pixel_variance();
+    let ((mine, _), (theirs, error)) = (noise(&estimate), noise(&held.estimate()));
+    theirs > 0.0 && theirs <= WORSE * mine && error <= KNOWN * theirs
 }
 
 fn errors(

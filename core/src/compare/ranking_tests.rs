@@ -79,6 +79,27 @@ fn efficiency_is_what_its_formula_says() {
     assert!((mse / standings[0].variance - 1.0).abs() < 0.2, "{mse} {}", standings[0].variance);
 }
 
+/// Without a reference the better view must not look worse: nothing is measured against what is much noisier.
+#[test]
+fn against_much_noisier_views_nothing_is_measured() {
+    let views = [(doc(0), picture(1, 64, 0.0)), (doc(1), picture(2, 1, 0.0))];
+    let standings = ranked(&views, &question());
+    assert!(standings[0].errors.is_empty() && standings[0].agreement.is_some());
+    let mse = standings[1].error("mse").unwrap();
+    assert!((mse.corrected() / standings[1].variance - 1.0).abs() < 0.2, "{mse:?}");
+    // A view that has met nothing yet has no noise that could be taken off.
+    let views = [(doc(0), picture(1, 64, 0.0)), (doc(1), picture(2, 1, -1.0))];
+    let standings = ranked(&views, &question());
+    assert_eq!(standings[0].against, Against::Others("B".into()));
+    assert!(standings[0].errors.is_empty() && !standings[1].errors.is_empty());
+    // A reference was chosen: its noise is stated, whatever it is.
+    let noisy = Arc::new(picture(3, 1, 0.0));
+    let reference = Reference::of(&noisy, "noisy");
+    let question = Question { reference: Some(&reference), ..question() };
+    let mse = *ranked(&views, &question)[0].error("mse").unwrap();
+    assert!(mse.uncertainty() > mse.reference_share && mse.reference_share > 0.9 * mse.value, "{mse:?}");
+}
+
 #[test]
 fn the_interval_of_the_speed_up_holds_the_truth_as_often_as_it_says() {
     let trials = 200;

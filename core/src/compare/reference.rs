@@ -49,6 +49,12 @@ impl Reference {
         }
     }
 
+    /// The same, with the random numbers that it was rendered with.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed: Some(seed), ..self }
+    }
+
     /// A picture with its standard error, that no view shows.
     #[must_use]
     pub fn own(
@@ -59,6 +65,15 @@ impl Reference {
     ) -> Self {
         let picture = Source::Own { mean, standard_error: Some(standard_error), noise: None };
         Self { width, height, picture, target: None, origin, seed: None, notices: Vec::new() }
+    }
+
+    /// The view's picture that it is, if it is one.
+    #[must_use]
+    pub fn snapshot(&self) -> Option<&Arc<Snapshot>> {
+        match &self.picture {
+            Source::View(snapshot) => Some(snapshot),
+            Source::Own { .. } => None,
+        }
     }
 
     /// Mean linear sRGB, row by row from the top.

@@ -98,7 +98,7 @@ pub fn run(
         ReferenceDoc::File { file } => Some(open(file, doc, &mut library, &mut notes)?),
         _ => None,
     };
-    let background = background(doc, &docs)?;
+    let background = background(doc)?;
 
     let mut running = Running::start(doc, docs, background, library)?;
     let ended = running.wait(&mut progress)?;
@@ -117,7 +117,8 @@ pub fn run(
         .collect();
     if let (Some(doc), Some(snapshot)) = (&running.background, snapshots.last()) {
         let name = estimator::find(&doc.estimator.id).map_or("", |e| e.name);
-        reference = Some(Reference::of(snapshot, format!("{name}, {} samples per pixel", snapshot.spp)));
+        let origin = format!("{name}, {} samples per pixel", snapshot.spp);
+        reference = Some(Reference::of(snapshot, origin).with_seed(doc.render.seed));
     }
     if let ReferenceDoc::View { view } = doc.compare.reference {
         let promoted = views.get(view).map(|(_, v)| v);
@@ -128,15 +129,24 @@ pub fn run(
 }
 
 /// The document of a reference that is still to be rendered, with random numbers that no view has.
-fn background(doc: &SceneDoc, views: &[Arc<SceneDoc>]) -> Result<Option<Arc<SceneDoc>>, RunError> {
-    let Some(mut reference) = doc.reference_doc() else { return Ok(None) };
+fn background(doc: &SceneDoc) -> Result<Option<Arc<SceneDoc>>, RunError> {
+    let Some(reference) = reference_doc(doc) else { return Ok(None) };
     if reference.render.limits().are_none() {
         return Err(RunError::EndlessReference);
     }
-    while views.iter().any(|v| v.render.seed == reference.render.seed) {
+    Ok(Some(Arc::new(reference)))
+}
+
+/// The document of a reference that is to be rendered, if there is one: with random numbers that no view has, since
+/// what a view shares with its reference looks like agreement.
+#[must_use]
+pub fn reference_doc(doc: &SceneDoc) -> Option<SceneDoc> {
+    let mut reference = doc.reference_doc()?;
+    let taken = |seed: u64| (0..doc.view_count()).any(|v| doc.contender(v).is_some_and(|c| c.seed == seed));
+    while taken(reference.render.seed) {
         reference.render.seed += 1;
     }
-    Ok(Some(Arc::new(reference)))
+    Some(reference)
 }
 
 /// A session with the views of a comparison.
@@ -282,6 +292,31 @@ mod tests {
             assert_eq!(standing.efficiency, 1.0 / (standing.variance * standing.cpu_seconds));
             assert_eq!(standing.errors.len(), MEASURES.len());
         }
+    }
+
+    #[test]
+    fn errors_need_a_reference_and_verdicts_do_not() {
+        let mut doc = fixture::doc("none");
+        for (reference, measured) in [(ReferenceDoc::None, false), (ReferenceDoc::Pooled, true)] {
+            doc.compare.reference = reference;
+            let experiment = run(&doc, Library::default(), |_| {}).unwrap().experiment;
+            let standings = experiment.rank(MEASURES.iter().collect());
+            assert!(standings.iter().all(|s| s.agreement.is_some()));
+            assert_eq!(standings.iter().any(|s| !s.errors.is_empty()), measured);
+            let curves = (0..3).filter(|view| !experiment.curve(*view, &MEASURES[0]).is_empty());
+            assert_eq!(curves.count() > 0, measured);
+        }
+    }
+
+    #[test]
+    fn a_rendered_reference_has_random_numbers_that_no_view_has() {
+        let mut doc = fixture::doc("seeds");
+        let usual = reference_doc(&doc).unwrap().render.seed;
+        assert_eq!(doc.reference_doc().unwrap().render.seed, usual);
+        (doc.compare.views[0].seed, doc.compare.views[1].seed) = (usual, usual + 1);
+        assert_eq!(reference_doc(&doc).unwrap().render.seed, usual + 2);
+        doc.compare.reference = ReferenceDoc::None;
+        assert_eq!(reference_doc(&doc), None);
     }
 
     #[test]

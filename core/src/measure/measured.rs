@@ -23,6 +23,13 @@ impl Measured {
         // `max` would turn a value that is not known into 0.
         if self.value.is_nan() { self.value } else { (self.value - self.reference_share).max(0.0) }
     }
+
+    /// How far [`Self::corrected`] may be off: the scatter over pixels and, in full, what was taken off for the
+    /// reference's noise. A reference that is about as noisy as the picture thus measures nothing, and shows it.
+    #[must_use]
+    pub fn uncertainty(&self) -> f64 {
+        self.error.hypot(self.reference_share)
+    }
 }
 
 #[cfg(test)]
@@ -37,5 +44,11 @@ mod tests {
         assert_eq!(with(3.0, 1.0), 2.0);
         assert_eq!(with(1.0, 3.0), 0.0);
         assert!(with(f64::NAN, 0.0).is_nan());
+    }
+
+    #[test]
+    fn the_references_noise_is_part_of_the_uncertainty() {
+        let measured = Measured { value: 5.0, error: 0.3, reference_share: 0.4, pixels: 1, excluded: 0 };
+        assert!((measured.uncertainty() - 0.5).abs() < 1e-12);
     }
 }

@@ -39,6 +39,7 @@ impl Public {
                 ending: None,
                 snapshot: None,
                 loading: None,
+                built: 0,
                 notices: Vec::new(),
                 scene: None,
                 first_picture_seconds: None,
@@ -205,6 +206,7 @@ impl Mailbox {
     pub fn publish_built(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| {
             p.state.set(active.status(), active.ending());
+            p.state.built = active.generation;
             p.state.notices.clone_from(&active.probe.scene.notices);
             p.state.scene = Some(active.probe.scene.info.clone());
             p.state.probe = Some(active.probe.aside());

@@ -86,6 +86,8 @@ pub struct ViewState {
     pub snapshot: Option<Arc<Snapshot>>,
     /// The file that is read while the scene is built.
     pub loading: Option<Loading>,
+    /// The submission that `notices`, `scene` and `probe` belong to: an older one until the newest is built.
+    pub built: u64,
     /// What building repaired or wants to be known, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
     /// Numbers about the newest scene that was built.

@@ -49,6 +49,10 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
         let spp = arguments.reference_spp;
         doc.compare.reference = ReferenceDoc::Render { estimator, spp, relative_error: None };
     }
+    if doc.compare.reference == ReferenceDoc::None {
+        // What the help promises: errors too are measured against the mean of the others.
+        doc.compare.reference = ReferenceDoc::Pooled;
+    }
     if let Some(id) = &arguments.measure {
         doc.compare.measure = MeasureId(id.clone());
     }

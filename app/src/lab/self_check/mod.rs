@@ -8,6 +8,7 @@ mod table;
 
 pub(super) use dialog::self_check_ui;
 
+use crate::model::{Work, work_after};
 use majorant_core::check::{self, Case, Check, CheckError, Effort, Row, Verdict};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
@@ -59,6 +60,8 @@ pub struct SelfCheck {
     /// Whether it is shown.
     pub open: bool,
     subject: Subject,
+    /// The scene that the rows are about, if it is one's own.
+    of: Option<SceneDoc>,
     deep: bool,
     only_failures: bool,
     running: Option<Running>,
@@ -106,6 +109,7 @@ impl SelfCheck {
     pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + 'static) {
         self.clear();
         let own = (self.subject == Subject::ThisScene).then(|| (name.to_owned(), doc.clone()));
+        self.of = own.as_ref().map(|(_, doc)| doc.clone());
         let (deep, generation) = (self.deep, Arc::new(AtomicU64::new(0)));
         let (sender, news) = channel();
         let theirs = Arc::clone(&generation);
@@ -113,6 +117,14 @@ impl SelfCheck {
         match std::thread::Builder::new().name("majorant-self-check".into()).spawn(work) {
             Ok(thread) => self.running = Some(Running { generation, news, thread }),
             Err(error) => self.ending = Some(Ending::Failed(format!("no thread could be started: {error}"))),
+        }
+    }
+
+    /// Shows it beside a scene: what was found of another, or of this one before an edit, is forgotten.
+    pub fn show(&mut self, doc: &SceneDoc) {
+        self.open = true;
+        if self.of.as_ref().is_some_and(|of| work_after(of, doc) == Work::Render) {
+            self.clear();
         }
     }
 
@@ -132,7 +144,7 @@ impl SelfCheck {
         self.at.clear();
         self.rows.clear();
         self.notes.clear();
-        self.ending = None;
+        (self.of, self.ending) = (None, None);
     }
 
     /// Takes note of what the thread has told.

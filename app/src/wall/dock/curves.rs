@@ -8,6 +8,7 @@ use egui::{RichText, Ui};
 use egui_plot::{FilledArea, Line, LineStyle, PlotPoint, PlotPoints, Points};
 use majorant_core::compare::curve::{Axis, Point, PowerLaw};
 use majorant_core::compare::label;
+use majorant_core::scene::ReferenceDoc;
 use std::fmt::Write;
 
 /// See the [module](self).
@@ -45,10 +46,16 @@ impl Tab for Curves {
             .filter(|(_, points)| !points.is_empty())
             .collect();
         let Some(measure) = analysis.measure.filter(|_| !curves.is_empty()) else {
-            return empty(
-                ui,
-                "Errors need something to be measured against: choose a reference above, or add a second unbiased view.",
-            );
+            let text = match cx.doc.compare.reference {
+                ReferenceDoc::None => {
+                    "Errors need something to be measured against: choose a reference above."
+                }
+                ReferenceDoc::Pooled => {
+                    "No error is known yet: the other unbiased views are too noisy, or there is none."
+                }
+                _ => "The reference has no picture yet.",
+            };
+            return empty(ui, text);
         };
         let id = ui.unique_id().with("axis");
         let mut axis = ui.data(|d| d.get_temp::<Axis>(id)).unwrap_or_default();

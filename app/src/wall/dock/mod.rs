@@ -7,7 +7,7 @@ mod path;
 mod pixel;
 mod plots;
 mod ranking;
-mod ray;
+pub(crate) mod ray;
 mod scanline;
 
 use super::inspector::Inspector;

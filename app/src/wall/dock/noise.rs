@@ -59,7 +59,8 @@ impl Tab for Noise {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let Some(evidence) = evidence(cx, Some(ui.ctx().clone())) else {
-            let text = if cx.inspector.noise.is_running() {
+            let built = cx.wall.selected_slot().is_some_and(|slot| slot.probe().is_some());
+            let text = if !built || cx.inspector.noise.is_running() {
                 "Samples are being taken apart: by technique, order, null collisions and hero."
             } else {
                 "No noise was found here."
@@ -97,10 +98,10 @@ impl Tab for Noise {
 /// What was measured of the view, in the box if there is one; anew if `wake` is given and anything has changed.
 fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence>> {
     let slot = cx.wall.selected_slot()?;
-    let probe = slot.state.probe.clone()?;
+    let probe = slot.probe()?.clone();
     let region = cx.doc.compare.region;
     let question = NoiseQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), region };
-    let chroma = slot.state.snapshot.as_deref().and_then(|snapshot| chroma_share(snapshot, region));
+    let chroma = slot.picture().and_then(|snapshot| chroma_share(snapshot, region));
     let wake = move || {
         if let Some(ctx) = wake {
             ctx.request_repaint();

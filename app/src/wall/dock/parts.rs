@@ -38,7 +38,11 @@ impl Tab for Parts {
     }
 
     fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
-        let parts = cx.inspector.parts.hung_of.clone()?;
+        let (view, slot) = (cx.wall.selected(), cx.wall.selected_slot()?);
+        let state = &cx.inspector.parts;
+        let question =
+            PartsQuestion { of: (view, slot.state.generation), split: state.split, spp: state.spp() };
+        let parts = state.errand.answer_to(&question)?;
         let shares = parts.variance_shares(|_, _| true);
         let mut text = String::from("part,r,g,b,variance_share\n");
         for (k, layer) in parts.layers.iter().enumerate() {
@@ -70,10 +74,12 @@ impl Tab for Parts {
             ui.horizontal_top(|ui| {
                 let size = vec2(height * parts.width as f32 / parts.height.max(1) as f32, height);
                 for (k, layer) in parts.layers.iter().enumerate() {
-                    let share = shares.as_ref().map(|s| s[k]);
+                    // While the parts of a newer picture are traced, those of the older stay, without their numbers.
+                    let share = shares.as_ref().filter(|_| current).map(|s| s[k]);
+                    let mean = current.then(|| layer.whole().iter().sum::<f64>() / 3.0);
                     let lit = shown.is_none_or(|shown| shown == k);
                     let tint = if lit && current { 255 } else { 110 };
-                    part_ui(ui, cx.inspector.parts.hung.get(k), layer, share, size, tint);
+                    part_ui(ui, cx.inspector.parts.hung.get(k), layer, (mean, share), size, tint);
                 }
             });
         });
@@ -135,8 +141,11 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
 /// The parts at hand, or those before while they are being traced.
 fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     let slot = cx.wall.selected_slot()?;
-    let probe = slot.state.probe.clone()?;
     let state = &mut cx.inspector.parts;
+    let Some(probe) = slot.probe().cloned() else {
+        // Another scene is being built; what was taken apart before is of an older one.
+        return state.errand.newest().map(|parts| (Arc::clone(parts), false));
+    };
     let (split, spp) = (state.split, state.spp());
     let question =
         PartsQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), split, spp };
@@ -189,7 +198,7 @@ fn part_ui(
     ui: &mut Ui,
     texture: Option<&egui::TextureHandle>,
     layer: &majorant_core::inspect::Layer,
-    share: Option<f64>,
+    (mean, share): (Option<f64>, Option<f64>),
     size: egui::Vec2,
     tint: u8,
 ) {
@@ -200,8 +209,8 @@ fn part_ui(
             ui.add(image.alt_text(format!("Part: {}", layer.name)));
         }
         ui.label(RichText::new(&layer.name).small().color(palette.strong));
-        let grey = layer.whole().iter().sum::<f64>() / 3.0;
+        let mean = mean.map_or("…".to_owned(), |mean| format!("{mean:.4}"));
         let share = share.map_or(String::new(), |s| format!("   {:.0} %", 100.0 * s));
-        ui.label(RichText::new(format!("{grey:.4}{share}")).small().color(palette.weak));
+        ui.label(RichText::new(format!("{mean}{share}")).small().color(palette.weak));
     });
 }

@@ -5,11 +5,13 @@ use crate::lab::Command;
 use crate::lab::stats::{count, duration};
 use crate::theme::{Palette, view_colour};
 use crate::wall::WallEdit;
-use crate::wall::caption::{against, chip, digits, verdict};
+use crate::wall::caption::{against, chip, digits, error_tip, not_measured, verdict};
 use egui::{Align, Color32, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
-use majorant_core::compare::{Standing, Verdict};
-use majorant_core::measure::{self, Measure};
+use majorant_core::compare::report::words;
+use majorant_core::compare::{Against, Standing, Verdict};
+use majorant_core::measure::{Measure, Measured};
+use majorant_core::scene::ReferenceDoc;
 use std::fmt::Write;
 
 /// See the [module](self).
@@ -18,12 +20,25 @@ pub struct Ranking;
 /// Below this width columns are left out that others imply.
 const NARROW: f32 = 760.0;
 
-/// Columns of numbers, what they are, and whether they stay in a narrow table.
-const HEADINGS: &[(&str, &str, bool)] = &[
+/// A column's heading, what its numbers are, and whether it stays in a narrow table.
+type Heading = (&'static str, &'static str, bool);
+
+/// The column that is headed by the measure of error.
+const ERROR: &str = "error";
+/// The column of the reference's part in it.
+const SHARE: &str = "ref. ±";
+
+/// Columns of numbers.
+const HEADINGS: &[Heading] = &[
     ("spp", "Samples per pixel", true),
     ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", false),
     ("look-ups", "Evaluations of the medium per path", false),
-    ("", "", true),
+    (ERROR, "", true),
+    (
+        SHARE,
+        "What the reference's own noise adds to an error: it is taken off, and in full part of the error's ±",
+        true,
+    ),
     ("variance", "Variance of a pixel's mean, over pixels and channels", true),
     ("colour", "The part of the variance that is colour noise: perpendicular to grey", true),
     ("efficiency", "1 / (variance · CPU seconds)", false),
@@ -44,16 +59,21 @@ impl Tab for Ranking {
     fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let standings = &cx.wall.analysis().standings;
         let mut text = String::from(
-            "view,estimator,spp,cpu_seconds,lookups_per_path,relmse,variance,chroma_variance,efficiency,speedup,speedup_low,speedup_high,bias_z,p,verdict\n",
+            "view,estimator,spp,cpu_seconds,lookups_per_path,relmse,variance,chroma_variance,efficiency,speedup,speedup_low,speedup_high,bias_z,p,verdict,relmse_error,relmse_reference_share,against\n",
         );
         for s in standings {
-            let relmse = s.error("relmse").map_or(f64::NAN, measure::Measured::corrected);
+            // Without a reference there is no error: the cell stays empty.
+            let error =
+                |of: fn(&Measured) -> f64| s.error("relmse").map_or_else(String::new, |m| of(m).to_string());
+            let [relmse, scatter, share] =
+                [error(Measured::corrected), error(|m| m.error), error(|m| m.reference_share)];
+            let against = words::against(&s.against).replace('"', "'");
             let (z, p) = s.agreement.map_or((f64::NAN, f64::NAN), |a| (a.z, a.p));
             let [lo, hi] = s.speedup_interval;
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "{},{},{},{},{},{relmse},{},{},{},{},{lo},{hi},{z},{p},{}",
+                "{},{},{},{},{},{relmse},{},{},{},{},{lo},{hi},{z},{p},{},{scatter},{share},\"{against}\"",
                 s.label,
                 s.estimator,
                 s.spp,
@@ -75,11 +95,12 @@ impl Tab for Ranking {
             return empty(ui, "Three samples per pixel, and the first numbers appear.");
         }
         // The one with the best efficiency is marked, if its lead over the second is beyond doubt.
-        let winner = winner(&analysis.standings);
-        let measure = analysis.measure;
+        let winner = winner(&analysis.standings).filter(|_| analysis.standings.len() == cx.doc.view_count());
+        let measure = analysis.measure.filter(|_| cx.doc.compare.reference != ReferenceDoc::None);
         let row_height = 21.0 * ui.text_style_height(&egui::TextStyle::Small) / 14.0 + 2.0;
         let wide = ui.available_width() > NARROW;
-        let columns = HEADINGS.iter().filter(|h| wide || h.2).count();
+        let shown = |h: &Heading| (wide || h.2) && (measure.is_some() || ![ERROR, SHARE].contains(&h.0));
+        let columns = HEADINGS.iter().filter(|h| shown(h)).count();
         egui::ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
             let table = TableBuilder::new(ui)
                 .striped(true)
@@ -93,8 +114,8 @@ impl Tab for Ranking {
                 .header(row_height, |mut header| {
                     heading(&mut header, "", "");
                     left_heading(&mut header, "estimator", "");
-                    for (text, tip, _) in HEADINGS.iter().filter(|h| wide || h.2) {
-                        let (text, tip) = match measure.filter(|_| text.is_empty()) {
+                    for (text, tip, _) in HEADINGS.iter().filter(|h| shown(h)) {
+                        let (text, tip) = match measure.filter(|_| *text == ERROR) {
                             Some(m) => (m.name, m.formula),
                             None => (*text, *tip),
                         };
@@ -109,7 +130,7 @@ impl Tab for Ranking {
                 .body(|mut body| {
                     for s in &analysis.standings {
                         body.row(row_height, |mut row| {
-                            line(&mut row, cx, s, measure, (winner == Some(s.label.as_str()), wide));
+                            line(&mut row, cx, s, measure, (winner == Some(s.label.as_str()), &shown));
                         });
                     }
                 });
@@ -141,7 +162,7 @@ fn line(
     cx: &mut Cx<'_>,
     s: &Standing,
     measure: Option<&'static Measure>,
-    (wins, wide): (bool, bool),
+    (wins, shown): (bool, &dyn Fn(&Heading) -> bool),
 ) {
     let view = (0..cx.doc.view_count()).find(|v| majorant_core::compare::label(*v) == s.label).unwrap_or(0);
     let error = measure.and_then(|m| s.error(m.id));
@@ -155,13 +176,16 @@ fn line(
         (duration_short(s.cpu_seconds), duration(s.cpu_seconds)),
         (count(s.lookups_per_path), String::new()),
         (
-            error.map_or_else(|| "–".into(), |e| digits(e.corrected())),
+            error.map_or_else(|| "–".into(), |e| words::quantity(e.corrected(), e.uncertainty())),
+            measure.zip(error).map_or_else(
+                || not_measured(s, cx.doc).unwrap_or_default().to_owned(),
+                |(measure, e)| error_tip(measure, e),
+            ),
+        ),
+        (
+            error.map_or_else(|| "–".into(), |e| digits(e.reference_share)),
             error.map_or_else(String::new, |e| {
-                format!(
-                    "± {} from its scatter over pixels; {} taken off for the reference's own noise",
-                    digits(e.error),
-                    digits(e.reference_share)
-                )
+                format!("{:.0} % of what was measured", 100.0 * e.reference_share / e.value)
             }),
         ),
         (digits(s.variance), format!("± {}", digits(s.variance_error))),
@@ -180,7 +204,7 @@ fn line(
             }
         });
     });
-    for ((text, tip), _) in cells.into_iter().zip(HEADINGS).filter(|(_, h)| wide || h.2) {
+    for ((text, tip), _) in cells.into_iter().zip(HEADINGS).filter(|(_, h)| shown(h)) {
         row.col(|ui| {
             let response = ui.label(RichText::new(text).monospace().size(12.0).color(Palette::get(ui).text));
             if !tip.is_empty() {
@@ -266,11 +290,41 @@ fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     } else {
         String::new()
     };
-    use majorant_core::scene::ReferenceDoc;
-    let held = match &cx.doc.compare.reference {
-        ReferenceDoc::None | ReferenceDoc::Pooled => "the mean of the other unbiased views".to_owned(),
-        _ => cx.wall.reference_state().text,
-    };
-    let text = format!("Over {place}, at {fair}{excluded}. Errors and verdicts: against {held}.");
-    ui.label(RichText::new(text).small().color(Palette::get(ui).weak));
+    let text = format!("Over {place}, at {fair}{excluded}. {}", basis(cx, standings));
+    let palette = Palette::get(ui);
+    ui.label(RichText::new(text).small().color(palette.weak));
+    let drowned = drowned(standings);
+    if !drowned.is_empty() {
+        let text = format!(
+            "More than half of what was measured of {drowned} is the reference's own noise: a reference has to be \
+             better than what is held against it."
+        );
+        ui.label(RichText::new(text).small().color(palette.warning));
+    }
+}
+
+/// What errors and verdicts of the table were measured against.
+fn basis(cx: &Cx<'_>, standings: &[Standing]) -> String {
+    let others = "the mean of the other unbiased views";
+    let origin = standings.iter().find_map(|s| match &s.against {
+        Against::Reference(origin) => Some(origin),
+        Against::Others(_) | Against::Nothing(_) => None,
+    });
+    match (&cx.doc.compare.reference, origin) {
+        (ReferenceDoc::None, _) => format!("No reference, no errors. Verdicts: against {others}."),
+        (ReferenceDoc::Pooled, _) => {
+            format!("Errors and verdicts: against {others}, whose noise is taken off.")
+        }
+        (_, Some(origin)) => format!("Errors and verdicts: against {origin}."),
+        (_, None) => {
+            let state = cx.wall.reference_state();
+            format!("Reference: {}. No errors yet.", state.text)
+        }
+    }
+}
+
+/// Views whose errors are mostly the reference's noise, by their labels.
+fn drowned(standings: &[Standing]) -> String {
+    let drowned = |s: &&Standing| s.error("relmse").is_some_and(|e| e.reference_share > 0.5 * e.value);
+    standings.iter().filter(drowned).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ")
 }

@@ -3,6 +3,7 @@
 use super::plots::{key_ui, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
+use crate::wall::Wall;
 use crate::wall::caption::digits;
 use crate::wall::inspector::{RayQuestion, RayState, Through};
 use egui::{Button, ComboBox, DragValue, RichText, Ui};
@@ -54,7 +55,8 @@ impl Tab for Ray {
             return empty(ui, "Click a pixel of a picture, or take one of the shapes.");
         }
         let Some(bench) = bench(cx, Some(ui.ctx().clone())) else {
-            let missed = !cx.inspector.ray.errand.is_running();
+            let built = cx.wall.selected_slot().is_some_and(|slot| slot.probe().is_some());
+            let missed = built && !cx.inspector.ray.errand.is_running();
             return empty(
                 ui,
                 if missed { "This ray misses the medium." } else { "The ray is being measured." },
@@ -157,30 +159,39 @@ fn component_ui(ui: &mut Ui, state: &mut RayState, mode: Mode) {
     }
 }
 
-/// The ray on the bench; worked out anew if `wake` is given and anything has changed.
-fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> {
-    let view = cx.wall.selected();
-    let slot = cx.wall.selected_slot()?;
-    let probe = slot.state.probe.clone()?;
-    let mode = cx.doc.view_doc(view).map_or(Mode::Spectral, |doc| doc.estimator.mode);
-    let state = &mut cx.inspector.ray;
+/// What the controls ask for; none of a pixel as long as none is picked, or its scene is being built.
+pub(crate) fn question(wall: &Wall, state: &RayState) -> Option<RayQuestion> {
+    let slot = wall.selected_slot()?;
+    let mode = slot.rendered.estimator.mode;
     let plan =
         BenchPlan { kind: state.kind(), estimates: ESTIMATES, seed: 1, example: state.example % ESTIMATES };
     let component = match mode {
         Mode::Spectral => state.lambda_nm,
         Mode::Rgb => state.channel as f32,
     };
-    let (through, extinction, cells, majorant_factor) =
-        (state.through, state.extinction, state.cells, state.factor);
-    let of_pixel = through == Through::Pixel;
-    let question = RayQuestion {
-        of: of_pixel.then_some((view, slot.state.generation)),
-        pixel: if of_pixel { Some(cx.wall.picked?) } else { None },
-        through,
-        numbers: if of_pixel { [component, 0.0, 0.0] } else { [extinction, cells as f32, majorant_factor] },
+    let of_pixel = state.through == Through::Pixel;
+    let shape = [state.extinction, state.cells as f32, state.factor];
+    Some(RayQuestion {
+        of: if of_pixel {
+            slot.probe().map(|_| Some((wall.selected(), slot.state.generation)))?
+        } else {
+            None
+        },
+        pixel: if of_pixel { Some(wall.picked?) } else { None },
+        through: state.through,
+        numbers: if of_pixel { [component, 0.0, 0.0] } else { shape },
         plan,
-    };
-    let pixel = question.pixel;
+    })
+}
+
+/// The ray on the bench; worked out anew if `wake` is given and anything has changed.
+fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> {
+    let question = question(cx.wall, &cx.inspector.ray)?;
+    let slot = cx.wall.selected_slot()?;
+    let (mode, probe) = (slot.rendered.estimator.mode, slot.probe().cloned());
+    let RayQuestion { through, pixel, plan, numbers: [component, ..], .. } = question;
+    let state = &mut cx.inspector.ray;
+    let (extinction, cells, majorant_factor) = (state.extinction, state.cells, state.factor);
     let wake = move || {
         if let Some(ctx) = wake {
             ctx.request_repaint();
@@ -191,6 +202,7 @@ fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> 
             Through::Shape(shape) => Along::Shape { shape, extinction, cells, majorant_factor },
             Through::Pixel => {
                 let [x, y] = pixel?;
+                let probe = probe.as_ref()?;
                 let scene = probe.scene();
                 let ray = scene.camera.ray(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
                 Along::Medium { scene, ray, mode, component }

@@ -166,6 +166,13 @@ pub fn find(id: &str) -> Option<&'static Map> {
 }
 
 impl Map {
+    /// Whether it shows differences in units of their noise, for which another noisy picture will do; the others that
+    /// need a reference show errors.
+    #[must_use]
+    pub fn is_test(&self) -> bool {
+        matches!(self.scale, Scale::Fixed(_))
+    }
+
     /// Its values, row by row; NaN where there is none. Empty if the map needs a reference and there is none
     /// of the same size.
     #[must_use]

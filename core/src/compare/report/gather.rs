@@ -55,7 +55,12 @@ impl<'a> Gathered<'a> {
     pub fn held_against(&self) -> String {
         match (self.reference(), self.standings.iter().find(|s| !matches!(s.against, Against::Nothing(_)))) {
             (Some(reference), _) => reference.origin.clone(),
-            (None, Some(_)) => "for every view the mean of the other unbiased views".into(),
+            (None, Some(_)) if self.experiment.has_errors() => {
+                "for every view the mean of the other unbiased views, whose noise is taken off".into()
+            }
+            (None, Some(_)) => {
+                "for every view the mean of the other unbiased views; verdicts only, as errors need a reference".into()
+            }
             (None, None) => "nothing".into(),
         }
     }
@@ -63,11 +68,12 @@ impl<'a> Gathered<'a> {
 
 impl<'a> Shown<'a> {
     fn of(experiment: &Experiment, number: usize, view: &'a View) -> Self {
-        let (_, held) = experiment.held_against(number);
-        let held: Option<Cow<'_, Reference>> = held;
+        let (_, opponent) = experiment.held_against(number);
+        let held: Option<Cow<'_, Reference>> = experiment.measured_against(number);
         let maps = Estimate::of(&view.snapshot).map(|estimate| {
-            let reference = held.as_ref().map(|r| r.estimate());
-            let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference.as_ref())));
+            let [tested, measured] = [&opponent, &held].map(|r| r.as_ref().map(|r| r.estimate()));
+            let reference = |map: &Map| if map.is_test() { tested.as_ref() } else { measured.as_ref() };
+            let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference(map))));
             values.filter(|(_, values)| values.iter().any(|v| v.is_finite())).collect()
         });
         // A curve ends with what the table says, however near the last checkpoint is.

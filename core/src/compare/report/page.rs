@@ -81,7 +81,7 @@ mod tests {
                 assert!(page.contains(&text), "{text}");
             }
             let relmse = standing.error("relmse").unwrap();
-            assert!(page.contains(&words::quantity(relmse.corrected(), relmse.error)));
+            assert!(page.contains(&words::quantity(relmse.corrected(), relmse.uncertainty())));
         }
         let images: Vec<&str> = attributes(&page, "src");
         // Three pictures and the reference, and every map of every view.

@@ -49,7 +49,7 @@ pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, pixel: [usize; 2], samples: 
 
 /// The pixel of the selected view that stands out most, in standard errors' size, from the eight around it.
 pub(super) fn outlier(wall: &Wall) -> Option<[usize; 2]> {
-    outlier_of(wall.selected_slot()?.state.snapshot.as_deref()?)
+    outlier_of(wall.selected_slot()?.picture()?)
 }
 
 fn outlier_of(snapshot: &Snapshot) -> Option<[usize; 2]> {

@@ -128,7 +128,7 @@ fn invitation(ui: &mut Ui, cx: &mut Cx<'_>) {
 fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>> {
     let view = cx.wall.selected();
     let slot = cx.wall.selected_slot()?;
-    let probe = slot.state.probe.clone()?;
+    let probe = slot.probe()?.clone();
     let state = &mut cx.inspector.path;
     let own = cx.doc.view_doc(view).and_then(|doc| majorant_core::estimator::find(&doc.estimator.id))?;
     let entry = state.under.unwrap_or(own);

@@ -32,7 +32,7 @@ pub(super) fn segment_ui(ui: &Ui, cx: &mut Cx<'_>, replayed: &Arc<Replayed>, rec
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 3.0, palette.well);
     let view = cx.wall.selected();
-    let Some(probe) = cx.wall.slots().get(view).and_then(|slot| slot.state.probe.clone()) else { return };
+    let Some(probe) = cx.wall.slots().get(view).and_then(|slot| slot.probe().cloned()) else { return };
     let state = &mut cx.inspector.path;
     let Some(row) = replayed.ledger.rows.get(state.step) else { return };
     let Some((began, ray)) = ray_of(replayed, row.note) else { return };

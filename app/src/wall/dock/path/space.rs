@@ -57,7 +57,7 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "The path in space"));
     let view = cx.wall.selected();
-    let Some(probe) = cx.wall.slots().get(view).and_then(|slot| slot.state.probe.clone()) else { return };
+    let Some(probe) = cx.wall.slots().get(view).and_then(|slot| slot.probe().cloned()) else { return };
     let Some(doc) = cx.doc.view_doc(view) else { return };
     let scene = probe.scene();
     let (center, size) = extent(scene);

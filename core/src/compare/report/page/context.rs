@@ -27,6 +27,8 @@ pub(super) struct Context {
     threads: usize,
     region: Option<String>,
     summary: String,
+    /// Whether errors were measured.
+    errors: bool,
     /// The measure that the comparison is about, unless the table has it anyway.
     other_measure: Option<&'static str>,
     ranking: Vec<Line>,
@@ -70,6 +72,7 @@ impl Context {
                 format!("columns {x0} to {} and rows {y0} to {}", x1.saturating_sub(1), y1.saturating_sub(1))
             }),
             summary: summary(&gathered.standings),
+            errors: gathered.experiment.has_errors(),
             other_measure,
             ranking: ranking(gathered),
             layers: layers(gathered)?,

@@ -58,7 +58,7 @@ pub(super) fn ranking(gathered: &Gathered<'_>) -> Vec<Line> {
 }
 
 fn error(standing: &Standing, id: &str) -> String {
-    standing.error(id).map_or_else(|| "–".into(), |m| words::quantity(m.corrected(), m.error))
+    standing.error(id).map_or_else(|| "–".into(), |m| words::quantity(m.corrected(), m.uncertainty()))
 }
 
 /// What came of it in a sentence or two.

@@ -1,0 +1,103 @@
+//! The pictures that hang, and which numbers describe them.
+
+use super::super::provenance::Provenance;
+use super::super::slot::Slot;
+use super::Wall;
+use crate::view::developer::{MapPrint, Print, Sight};
+use egui::{Context, TextureFilter, TextureHandle, TextureOptions};
+use majorant_core::compare::Reference;
+use majorant_core::film::Snapshot;
+use majorant_core::session::{Session, ViewId};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
+const TEXTURE: TextureOptions = TextureOptions {
+    magnification: TextureFilter::Nearest,
+    minification: TextureFilter::Linear,
+    ..TextureOptions::LINEAR
+};
+
+/// A print on the graphics card.
+pub struct Hung {
+    /// The pixels.
+    pub texture: TextureHandle,
+    /// The numbers behind them; absent for the reference.
+    pub snapshot: Option<Arc<Snapshot>>,
+    /// What it shows, if it is a map.
+    pub map: Option<Arc<MapPrint>>,
+    /// The session's view, if it is one's.
+    id: Option<ViewId>,
+    /// The reference, if it is that.
+    pub reference: Option<Arc<Reference>>,
+}
+
+impl Wall {
+    pub(super) fn hang(&mut self, ctx: &Context, sight: Sight, print: Print) {
+        let Print { image, snapshot, id, reference, map } = print;
+        // It may have been ordered before the views changed their places.
+        if let Sight::View(view) = sight
+            && self.slots.get(view).map(|slot| slot.id) != id
+        {
+            return;
+        }
+        let texture = match self.hung.remove(&sight) {
+            Some(Hung { mut texture, .. }) => {
+                texture.set(image, TEXTURE);
+                texture
+            }
+            None => ctx.load_texture(format!("{sight:?}"), image, TEXTURE),
+        };
+        self.hung.insert(sight, Hung { texture, snapshot, map, id, reference });
+    }
+
+    /// Pictures move with their views.
+    pub(super) fn rehang(&mut self) {
+        let views = |sight: &Sight| matches!(sight, Sight::View(_));
+        let (hung, rest): (BTreeMap<_, Hung>, _) =
+            std::mem::take(&mut self.hung).into_iter().partition(|(sight, _)| views(sight));
+        self.hung = rest;
+        for (_, hung) in hung {
+            if let Some(view) = self.slots.iter().position(|slot| Some(slot.id) == hung.id) {
+                self.hung.insert(Sight::View(view), hung);
+            }
+        }
+    }
+
+    /// A picture on the wall; none if what hangs is a map that is not wanted now.
+    #[must_use]
+    pub fn hung(&self, sight: Sight) -> Option<&Hung> {
+        let wanted = self.map().map(|map| map.id);
+        self.hung.get(&sight).filter(|hung| {
+            // What was the reference is none any more once there is another, or none yet.
+            if sight == Sight::Reference && !self.reference.is_source_of(hung.reference.as_ref()) {
+                return false;
+            }
+            let map = hung.map.as_ref().map(|print| print.map.id);
+            map.is_none() || map == wanted || wanted.is_none()
+        })
+    }
+
+    /// What numbers would describe now.
+    pub(super) fn provenance(&self) -> Provenance {
+        let shown = |(view, slot): (usize, &Slot)| {
+            let current = slot.state.generation;
+            // A picture of an older submission may hang for a moment: then nothing describes it and its document.
+            let hung = self.hung.get(&Sight::View(view)).and_then(|h| h.snapshot.as_ref());
+            hung.is_none_or(|hung| hung.generation == current).then_some(current)
+        };
+        Provenance {
+            views: self.slots.iter().enumerate().map(shown).collect(),
+            reference: self.reference.identity(&self.doc),
+            region: self.doc.compare.region,
+            baseline: self.doc.compare.baseline,
+        }
+    }
+
+    /// Brings what is shown in line with what it depends on.
+    pub(super) fn refresh(&mut self, session: &Session) {
+        let target = self.target();
+        self.reference.update(&self.doc, &self.slots, target.as_deref(), session);
+        self.current = Arc::new(self.analysis.matching(&self.provenance()));
+    }
+}
