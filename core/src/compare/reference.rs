@@ -1,8 +1,10 @@
 //! What errors are measured against.
 
 use super::estimate::Estimate;
+use super::fitness::{LOST, unfit_document};
 use crate::film::{Noise, Snapshot};
 use crate::io::picture::{self, PictureError};
+use crate::io::scene_file;
 use crate::measure::{Picture, Region};
 use rayon::prelude::*;
 use std::path::Path;
@@ -23,6 +25,9 @@ pub struct Reference {
     pub origin: String,
     /// Its random numbers, if a file says so: no view may have the same.
     pub seed: Option<u64>,
+    /// Why it is no reference, if a file says so: it was rendered with a setting that biases, its variance has no bound,
+    /// or samples were left out of it.
+    pub unfit: Option<&'static str>,
 }
 
 /// Whose pixels they are: a view's are shared, not copied.
@@ -43,6 +48,7 @@ impl Reference {
             picture: Source::View(Arc::clone(snapshot)),
             origin: origin.into(),
             seed: None,
+            unfit: None,
         }
     }
 
@@ -55,7 +61,7 @@ impl Reference {
         origin: String,
     ) -> Self {
         let picture = Source::Own { mean, standard_error: Some(standard_error), noise: None };
-        Self { width, height, picture, target: None, origin, seed: None }
+        Self { width, height, picture, target: None, origin, seed: None, unfit: None }
     }
 
     /// Mean linear sRGB, row by row from the top.
@@ -106,6 +112,7 @@ impl Reference {
             target: target.map(str::to_owned),
             origin: name.into_owned(),
             seed: metadata.as_ref().and_then(|m| m["seed"].as_u64()),
+            unfit: metadata.as_ref().and_then(unfit),
         })
     }
 
@@ -162,6 +169,7 @@ impl Reference {
             target: Some(first.target.clone()),
             origin: origin.into(),
             seed: None,
+            unfit: None,
         })
     }
 
@@ -180,6 +188,13 @@ impl Reference {
     pub fn fits(&self, target: &str) -> bool {
         self.target.as_deref() == Some(target)
     }
+}
+
+/// What the metadata of a file tells against it. A scene that this version does not read tells nothing.
+fn unfit(metadata: &serde_json::Value) -> Option<&'static str> {
+    let lost = metadata["non_finite"].as_u64().is_some_and(|n| n > 0).then_some(LOST);
+    let doc = metadata["scene"].as_str().and_then(|text| scene_file::parse(text, "the reference").ok());
+    doc.as_ref().and_then(unfit_document).or(lost)
 }
 
 #[cfg(test)]

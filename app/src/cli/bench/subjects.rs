@@ -1,9 +1,9 @@
 //! The scenes of a benchmark, with their references.
 
 use super::Arguments;
-use crate::cli::{Failure, source};
+use crate::cli::{Failure, options, source};
 use majorant_core::bench::{Entrant, ReferencePlan, Subject};
-use majorant_core::compare::Reference;
+use majorant_core::compare;
 use majorant_core::estimator::{self, Entry};
 use majorant_core::io::{embedded, scene_file};
 use std::path::Path;
@@ -31,7 +31,14 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
     let beside = Path::new(name).parent().map(|folder| folder.join("reference.exr"));
     let beside = beside.filter(|file| arguments.reference_seconds.is_none() && file.exists());
     let reference = match arguments.reference.as_ref().or(beside.as_ref()) {
-        Some(file) => ReferencePlan::Given(Box::new(Reference::read(file)?)),
+        Some(file) => {
+            // Relative to where the command runs, not to the scene.
+            let file = std::path::absolute(file)?.to_string_lossy().into_owned();
+            let (mut library, mut notes) = (source.resources.clone(), Vec::new());
+            let reference = compare::open(&file, &doc, &mut library, &mut notes)?;
+            options::print_notes(&notes);
+            ReferencePlan::Given(Box::new(reference))
+        }
         None => ReferencePlan::Own {
             estimator: estimator::find("uni-nee-mis")
                 .ok_or_else(|| Failure::Message("Uni+NEE MIS is missing".into()))?,
