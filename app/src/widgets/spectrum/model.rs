@@ -129,7 +129,7 @@ mod tests {
         let mut points = vec![point(430.0, 8.0), point(540.0, 40.0), point(572.0, 8.0)];
         shift(&mut points, 1, point(900.0, -3.0), [0.0, f32::MAX]);
         assert_eq!(points[1], point(571.0, 0.0));
-        shift(&mut points, 2, point(2000.0, 5.0), 1.0);
+        shift(&mut points, 2, point(2000.0, 5.0), [0.0, 1.0]);
         assert_eq!(points[2], point(LAMBDA_MAX_NM, 1.0));
         shift(&mut points, 0, point(0.0, 2.0), [0.0, f32::MAX]);
         assert_eq!(points[0].lambda_nm, LAMBDA_MIN_NM);
