@@ -295,3 +295,53 @@ fn mistakes_are_explained() {
     std::fs::write(path("bad.vdb"), b"not a volume").unwrap();
     assert!(fails(&["info", &path("bad.vdb")], 1).contains("bad.vdb"));
 }
+
+/// A scene with an error target whose samples are limited by the command line.
+#[test]
+fn limits_that_are_given_replace_the_scenes_and_say_so() {
+    let arguments = [
+        "render",
+        "furnace",
+        "--size",
+        "8x8",
+        "--json",
+        "--set",
+        "render.relative_error=0.5",
+        "render.cpu_seconds=9",
+    ];
+    let output = majorant(&[&arguments[..], &["--spp", "2"]].concat());
+    let said = text(&output.stderr);
+    assert!(output.status.success() && said.contains("render.cpu_seconds = 9"), "{said}");
+    assert!(said.contains("render.relative_error = 0.5 no longer holds"), "{said}");
+    assert!(text(&output.stdout).contains("\"spp\":2"), "{}", text(&output.stdout));
+}
+
+/// Every key once, with what a program needs to offer it.
+#[test]
+fn keys_are_listed() {
+    let listed: Vec<Value> = serde_json::from_str(&succeeds(&["keys", "--json"])).unwrap();
+    assert!(listed.len() > 150, "{}", listed.len());
+    for key in &listed {
+        for field in ["path", "type", "range", "unit", "default", "label", "tip", "affects", "biases"] {
+            assert!(key.get(field).is_some(), "{field}: {key}");
+        }
+        assert!(
+            !key["tip"].as_str().unwrap().is_empty() && !key["label"].as_str().unwrap().is_empty(),
+            "{key}"
+        );
+        let affects = key["affects"].as_str().unwrap();
+        assert!(["scene", "estimate", "limits", "view"].contains(&affects), "{key}");
+    }
+    let find = |path: &str| listed.iter().find(|key| key["path"] == path).unwrap();
+    assert_eq!(find("lights.*.radius")["kind"], serde_json::json!(["sphere"]));
+    assert_eq!(find("medium.majorant.factor")["range"], serde_json::json!([0.01, 1000.0]));
+    assert!(find("medium.majorant.when_exceeded")["biases"].as_str().unwrap().contains("clamp"));
+    let ids = find("compare.views.*.estimator.id")["values"].as_array().unwrap();
+    assert!(ids.contains(&"nee".into()));
+    assert!(find("compare.measure")["values"].as_array().unwrap().contains(&"relmse".into()));
+    let lines = succeeds(&["keys", "medium.majorant"]);
+    assert!(lines.lines().count() == 4 && lines.contains("default \"weighted\""), "{lines}");
+    assert!(fails(&["keys", "magic"], 1).contains("magic"));
+    let table = succeeds(&["keys", "--markdown"]);
+    assert!(table.starts_with("| key |") && table.contains("`camera.fov_deg`"), "{table}");
+}

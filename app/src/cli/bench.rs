@@ -17,7 +17,9 @@ are run. A scene's own size, sampler and thread count hold; --set changes any ke
 
 Errors are measured against a picture that converged before: an EXR by --reference, reference.exr beside the
 scene file if there is one, or a run of its own, eight times as long as a trial (--reference-seconds), by
-Uni+NEE MIS. What the reference's own noise adds is subtracted where the noise is known.
+Uni+NEE MIS without any setting that biases. What the reference's own noise adds is subtracted where the noise is
+known. A picture of another image, with the seed of a trial (render.seed and those after it), or with settings that bias
+is refused.
 
   relMSE       mean over pixels and channels of (I − R)² / (R² + 0.01)
   efficiency   1 / (relMSE · CPU seconds of all threads): twice as much means half the time
@@ -58,7 +60,7 @@ pub(super) struct Arguments {
     /// Worker threads; by default one per core.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Sets any key of the scenes. Repeatable.
+    /// Sets any key of the scenes; `majorant keys` lists them. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
     /// Print one line of JSON per row.

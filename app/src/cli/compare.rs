@@ -71,7 +71,7 @@ pub(super) struct Arguments {
     /// The first estimator's random numbers; the others follow.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Sets any key of the scene. Repeatable.
+    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
     /// The measure of error that curves and table show beside relMSE.

@@ -6,6 +6,7 @@ mod compare;
 mod estimators;
 mod figures;
 mod info;
+mod keys;
 mod lab;
 mod options;
 mod parts;
@@ -75,6 +76,8 @@ enum Command {
     Info(info::Arguments),
     /// List the embedded scenes.
     Scenes,
+    /// List every key of a scene file: type, range, default, meaning, what it affects, when it biases.
+    Keys(keys::Arguments),
 }
 
 /// What a command ends with.
@@ -110,6 +113,7 @@ pub fn main() -> ExitCode {
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),
+        Some(Command::Keys(a)) => keys::run(&a),
     };
     let (code, message) = match result {
         Ok(()) => return ExitCode::SUCCESS,

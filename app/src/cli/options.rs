@@ -1,5 +1,7 @@
 //! What several commands read alike.
 
+use majorant_core::scene::{Limits, RenderDoc};
+
 /// `640x480` as columns and rows.
 pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X', '×']);
@@ -14,10 +16,64 @@ pub(super) fn assignments(set: &[String], options: &[(&str, Option<String>)]) ->
     set.iter().cloned().chain(given).collect()
 }
 
+/// Gives a render these limits and no others, and names those of the scene that no longer hold.
+pub(super) fn replace_limits(render: &mut RenderDoc, given: Limits) {
+    if let Some(note) = dropped(&render.limits(), &given) {
+        print_notes(&[note]);
+    }
+    render.set_limits(given);
+}
+
+/// Limits of a scene that others do not replace, as a sentence.
+fn dropped(scene: &Limits, given: &Limits) -> Option<String> {
+    let dropped: Vec<String> = [
+        ("spp", scene.spp.map(|n| n.to_string()).filter(|_| given.spp.is_none())),
+        ("seconds", scene.seconds.map(|s| s.to_string()).filter(|_| given.seconds.is_none())),
+        ("cpu_seconds", scene.cpu_seconds.map(|s| s.to_string()).filter(|_| given.cpu_seconds.is_none())),
+        (
+            "relative_error",
+            scene.relative_error.map(|e| e.to_string()).filter(|_| given.relative_error.is_none()),
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(key, value)| Some(format!("render.{key} = {}", value?)))
+    .collect();
+    (!dropped.is_empty()).then(|| {
+        format!(
+            "the limits that were given replace those of the scene; {} no longer holds",
+            dropped.join(", ")
+        )
+    })
+}
+
 /// Notes go to standard error; nobody reading them is not an error.
 pub(super) fn print_notes(notes: &[String]) {
     use std::io::Write;
     for note in notes {
         let _ = writeln!(std::io::stderr(), "majorant: note: {note}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_that_no_longer_hold_are_named() {
+        let scene =
+            Limits { spp: Some(64), seconds: None, cpu_seconds: Some(30.0), relative_error: Some(0.01) };
+        let note = dropped(&scene, &Limits::samples(8)).unwrap_or_default();
+        assert!(
+            note.contains("render.cpu_seconds = 30, render.relative_error = 0.01 no longer holds"),
+            "{note}"
+        );
+        assert!(!note.contains("render.spp"), "{note}");
+        let given = Limits { seconds: Some(2.0), ..Limits::default() };
+        assert!(dropped(&scene, &given).is_some_and(|note| note.contains("render.spp = 64")));
+        assert_eq!(dropped(&Limits::samples(64), &Limits::samples(8)), None);
+        assert_eq!(dropped(&Limits::default(), &given), None);
+        let mut render = RenderDoc { relative_error: Some(0.1), ..RenderDoc::default() };
+        replace_limits(&mut render, given);
+        assert_eq!(render.limits(), given);
     }
 }

@@ -13,7 +13,8 @@ use std::time::Duration;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-A limit that is given (--spp, --seconds) replaces both limits of the scene.
+Limits that are given (--spp, --seconds) replace those of the scene as a whole: render.spp, seconds, cpu_seconds and
+relative_error. Those that no longer hold are named on standard error.
 --set reaches every key of the scene file: --set estimator.mode=rgb, --set lights.0.scale=3,
 --set 'medium.extinction=\"430:8, 540:40\"'.
 
@@ -48,7 +49,7 @@ pub(super) struct Arguments {
     /// Most path segments: 1 is emission only, 2 single scattering.
     #[arg(long, value_name = "N")]
     max_depth: Option<u32>,
-    /// Sets any key of the scene. Repeatable.
+    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
     /// Print what was done as one line of JSON.
@@ -80,7 +81,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = source::load(&arguments.scene)?;
     let mut doc = scene_file::override_keys(&source.doc, &arguments.assignments())?;
     if arguments.spp.is_some() || arguments.seconds.is_some() {
-        doc.render.set_limits(Limits { spp: arguments.spp, seconds: arguments.seconds, ..Limits::default() });
+        let given = Limits { spp: arguments.spp, seconds: arguments.seconds, ..Limits::default() };
+        options::replace_limits(&mut doc.render, given);
     }
     if doc.render.limits().are_none() {
         return Err(Failure::Message("the render would never end: give --spp or --seconds".into()));

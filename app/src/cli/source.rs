@@ -22,7 +22,7 @@ pub(super) struct Traced {
     /// An id that `majorant estimators` lists.
     #[arg(long, value_name = "ID")]
     estimator: Option<String>,
-    /// Sets any key of the scene. Repeatable.
+    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
 }

@@ -330,7 +330,8 @@ impl LabApp {
             self.latency.edited(self.session.state(slot.id).generation);
         }
         if let Some(path) = wanted {
-            let read = self.tasks.read_reference(path);
+            let library = majorant_core::io::Library::default().with_base(base);
+            let read = self.tasks.read_reference(path, doc.clone(), library);
             if let Err(problem) = read {
                 self.messages.fail(problem);
             }

@@ -5,7 +5,7 @@ use super::Purpose;
 use crate::model::own_volume::{self, Look};
 use majorant_core::compare::{Experiment, Reference, report};
 use majorant_core::film::Snapshot;
-use majorant_core::io::{export, volume};
+use majorant_core::io::{Library, export, volume};
 use majorant_core::scene::SceneDoc;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -74,13 +74,27 @@ impl Tasks {
         self.spawn("grids", move || Outcome::Listed(named, names(&path)))
     }
 
-    /// Reads a picture that errors are measured against.
+    /// Reads a picture that errors of a document's views are measured against.
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn read_reference(&self, path: PathBuf) -> Result<(), String> {
+    pub fn read_reference(&self, path: PathBuf, doc: SceneDoc, mut library: Library) -> Result<(), String> {
         self.spawn("reference", move || {
             let read = Reference::read(&path).map_err(|e| e.to_string());
+            let read = read.and_then(|reference| match reference.unfit {
+                // A name from an earlier version is brought up to date.
+                None => {
+                    let mut reference = reference;
+                    if reference.target.as_deref().is_some_and(|name| library.is_named(name, &doc)) {
+                        reference.target = Some(library.fingerprint(&doc));
+                    }
+                    Ok(reference)
+                }
+                Some(reason) => Err(format!(
+                    "{}: {reason}, so that it cannot be a reference. Load or render another.",
+                    path.display()
+                )),
+            });
             Outcome::Reference(path, read)
         })
     }

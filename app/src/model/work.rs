@@ -1,9 +1,10 @@
 //! What an edit costs: found by comparing documents, so that no widget has to remember it.
 
 use majorant_core::scene::SceneDoc;
+use majorant_core::scene::keys::{self, Affects, Key};
 
 /// The least work that brings a picture up to date with an edited document.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Work {
     /// The picture is up to date; at most it is shown differently.
     None,
@@ -16,21 +17,21 @@ pub enum Work {
 /// What turning `before` into `after` needs.
 #[must_use]
 pub fn work_after(before: &SceneDoc, after: &SceneDoc) -> Work {
-    let estimate_changed = before.camera != after.camera
-        || before.film != after.film
-        || before.medium != after.medium
-        || before.lights != after.lights
-        || before.objects != after.objects
-        || before.estimator != after.estimator
-        || before.render.seed != after.render.seed
-        || before.render.threads != after.render.threads;
-    if estimate_changed {
-        Work::Render
-    } else if before.render != after.render {
-        Work::Limits
-    } else {
-        Work::None
+    if before == after {
+        return Work::None;
     }
+    // What cannot be written has no keys to compare.
+    let Some(changed) = keys::changed(before, after) else { return Work::Render };
+    let work = |key: &Key| match key.affects {
+        // Other views have pictures of their own.
+        _ if key.path.starts_with("compare.") => Work::None,
+        Affects::Scene | Affects::Estimate => Work::Render,
+        // No sample depends on them, but the threads are those that a render started with.
+        Affects::Limits if key.path == "render.threads" => Work::Render,
+        Affects::Limits => Work::Limits,
+        Affects::View => Work::None,
+    };
+    changed.into_iter().map(work).max().unwrap_or(Work::None)
 }
 
 #[cfg(test)]

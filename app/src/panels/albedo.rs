@@ -1,7 +1,7 @@
 //! Albedo by wavelength: the share of collisions that scatter.
 
 use super::{Column, Cx, Panel, extinction};
-use crate::widgets::{SpectrumField, hint, spectrum_editor};
+use crate::widgets::{SpectrumField, hint, key, spectrum_editor};
 use egui::Ui;
 use majorant_core::scene::CoefficientsDoc;
 use majorant_core::spectrum::Quantity;
@@ -43,9 +43,7 @@ impl Panel for Albedo {
         }
         let field = SpectrumField {
             name: "Albedo",
-            unit: "",
-            max: Some(1.0),
-            tip: "α(λ) = σs / σt: the share of extinguished light that is scattered, not absorbed",
+            key: key("medium.albedo"),
             opened: &cx.opened.medium.albedo,
             quantity: Quantity::Coefficient,
             majorant: None,

@@ -1,9 +1,10 @@
 //! How the medium's coefficients are given, and the spectra of each way.
 
 use super::{Cx, phase};
-use crate::widgets::{SpectrumField, hint, segmented, spectrum_editor};
+use crate::widgets::{SpectrumField, hint, key, segmented, spectrum_editor};
 use egui::Ui;
-use majorant_core::scene::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS, MediumDoc};
+use majorant_core::scene::keys::Key;
+use majorant_core::scene::{CoefficientsDoc, CoefficientsKind, MediumDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// Chooses how coefficients are given; the medium stays what it is.
@@ -43,16 +44,12 @@ pub(super) fn spectra_ui(ui: &mut Ui, cx: &mut Cx<'_>) -> bool {
     let opened = opened(&cx.opened.medium, doc, mean_cosine);
     match doc {
         CoefficientsDoc::AbsorptionScattering { absorption, scattering } => {
-            let tip = "Absorption coefficient of density 1, per scene unit";
-            edit(ui, ("Absorption", tip, None), &opened[0], absorption);
-            let tip = "Scattering coefficient of density 1, per scene unit";
-            edit(ui, ("Scattering", tip, None), &opened[1], scattering);
+            edit(ui, key("medium.coefficients.absorption"), &opened[0], absorption);
+            edit(ui, key("medium.coefficients.scattering"), &opened[1], scattering);
         }
         CoefficientsDoc::MeanFreePathColour { mean_free_path, colour } => {
-            let tip = "Mean distance between collisions in density 1, scene units";
-            edit(ui, ("Mean free path", tip, Some(MEAN_FREE_PATHS[1])), &opened[0], mean_free_path);
-            let tip = "Share of diffuse light that a half-space of the medium reflects";
-            edit(ui, ("Colour of the medium", tip, Some(1.0)), &opened[1], colour);
+            edit(ui, key("medium.coefficients.mean_free_path"), &opened[0], mean_free_path);
+            edit(ui, key("medium.coefficients.colour"), &opened[1], colour);
             hint(
                 ui,
                 &format!(
@@ -78,13 +75,8 @@ fn opened(medium: &MediumDoc, as_now: &CoefficientsDoc, mean_cosine: f32) -> [Sp
     }
 }
 
-fn edit(
-    ui: &mut Ui,
-    (name, tip, max): (&str, &str, Option<f32>),
-    opened: &SpectrumDoc,
-    doc: &mut SpectrumDoc,
-) {
-    ui.strong(name);
-    let quantity = Quantity::Coefficient;
-    spectrum_editor(ui, &SpectrumField { name, unit: "", max, tip, opened, quantity, majorant: None }, doc);
+fn edit(ui: &mut Ui, key: &'static Key, opened: &SpectrumDoc, doc: &mut SpectrumDoc) {
+    ui.strong(key.label);
+    let (name, quantity) = (key.label, Quantity::Coefficient);
+    spectrum_editor(ui, &SpectrumField { name, key, opened, quantity, majorant: None }, doc);
 }

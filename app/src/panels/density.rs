@@ -2,10 +2,10 @@
 
 use super::{Column, Cx, Panel, placement};
 use crate::lab::{Command, GridLists, Purpose};
-use crate::widgets::{Value, hint, path_field, row, segmented};
+use crate::widgets::{Value, hint, key, path_field, row, row_of, segmented};
 use egui::{ComboBox, Ui};
 use majorant_core::medium::{Interpolation, Precision};
-use majorant_core::scene::{DensityDoc, GridRef, MediumDoc};
+use majorant_core::scene::{DensityDoc, GridRef};
 use std::path::Path;
 
 /// See the [module](self).
@@ -38,12 +38,10 @@ impl Panel for Density {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        Value::new("Scale", &mut cx.draft.medium.scale, MediumDoc::default().scale)
+        Value::of(key("medium.scale"), &mut cx.draft.medium.scale)
             .opened(cx.opened.medium.scale)
-            .range(0.0..=f64::from(f32::MAX))
             .logarithmic()
             .named("Density scale")
-            .tip("Multiplies the density: σt(x, λ) = scale · density(x) · extinction(λ), per scene unit")
             .show(ui);
         source_ui(ui, cx);
         storage_ui(ui, cx);
@@ -57,7 +55,7 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         return;
     }
     let medium = &mut cx.draft.medium;
-    row(ui, "Precision", "Bits of a value in memory", |ui, _| {
+    row_of(ui, key("medium.precision"), |ui, _| {
         let options = [
             (Precision::F32, "32", "As read"),
             (Precision::F16, "16", "Half floats: relative error up to 1/2048"),
@@ -65,7 +63,7 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         ];
         segmented(ui, "Precision", &mut medium.precision, &options);
     });
-    row(ui, "Between", "How a value between samples is looked up", |ui, _| {
+    row_of(ui, key("medium.interpolation"), |ui, _| {
         let options = [
             (Interpolation::Trilinear, "Trilinear", "Eight samples, weighted"),
             (
@@ -102,7 +100,7 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         DensityDoc::Grid(_) => Kind::Grid,
         DensityDoc::RgbGrid(_) => Kind::Rgb,
     };
-    row(ui, "Source", "Where the density comes from", |ui, _| {
+    row_of(ui, key("medium.density.kind"), |ui, _| {
         let options = [
             (Kind::Uniform, "Uniform", "1 everywhere in a unit cube: a homogeneous medium"),
             (Kind::Grid, "Grid", "A scalar grid from an OpenVDB, .npy or .vol file"),

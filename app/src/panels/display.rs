@@ -1,9 +1,9 @@
 //! How linear radiance becomes display colour; never part of the estimate.
 
 use super::{Column, Cx, Panel};
-use crate::widgets::{Value, optional, row, segmented};
+use crate::widgets::{Value, key, optional_key, row_of, segmented};
 use egui::Ui;
-use majorant_core::scene::{ToneCurve, ViewDoc};
+use majorant_core::scene::ToneCurve;
 
 /// See the [module](self).
 pub struct Display;
@@ -24,14 +24,12 @@ impl Panel for Display {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let view = &mut cx.draft.view;
-        Value::new("Exposure", &mut view.exposure_ev, ViewDoc::default().exposure_ev)
+        Value::of(key("view.exposure_ev"), &mut view.exposure_ev)
             .opened(cx.opened.view.exposure_ev)
-            .unit("EV")
-            .range(-16.0..=16.0)
+            .within(-16.0..=16.0)
             .speed(0.02)
-            .tip("shown = 2^EV · radiance. E and Shift + E move it by half a stop")
             .show(ui);
-        row(ui, "Tone curve", "Maps bright radiance into the display's range", |ui, _| {
+        row_of(ui, key("view.tone"), |ui, _| {
             let options = [
                 (ToneCurve::Linear, "Linear", "Clips at 1: what you see is what was computed"),
                 (ToneCurve::Reinhard, "Reinhard", "x / (1 + x) by luminance"),
@@ -39,9 +37,7 @@ impl Panel for Display {
             ];
             segmented(ui, "Tone curve", &mut view.tone, &options);
         });
-        let tip = "Display gamma instead of the sRGB curve";
-        optional(ui, "Gamma", (&mut view.gamma, cx.opened.view.gamma), 2.2, "sRGB curve", tip, |v| {
-            v.range(0.2..=5.0)
-        });
+        let gamma = (&mut view.gamma, cx.opened.view.gamma);
+        optional_key(ui, key("view.gamma"), gamma, 2.2, "sRGB curve", |v| v.within(0.2..=5.0));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Column, Cx, Panel, density};
 use crate::lab::Purpose;
-use crate::widgets::{Value, format_number, hint, row, segmented, switch};
+use crate::widgets::{Value, format_number, hint, key, row, segmented, switch};
 use egui::Ui;
 use majorant_core::scene::{DensityDoc, EmissionDoc, GridRef};
 
@@ -70,19 +70,17 @@ impl Panel for Emission {
         } else {
             emission.temperature = None;
         }
-        Value::new("Kelvin", &mut emission.kelvin, 3000.0)
+        Value::of(key("medium.emission.kelvin"), &mut emission.kelvin)
             .opened(initial.kelvin)
-            .range(0.001..=15_000.0)
+            .within(0.001..=15_000.0)
             .logarithmic()
-            .unit("K")
             .tip(if by_grid { "Kelvins of a temperature of 1" } else { "How hot it is" })
             .show(ui);
-        Value::new("Scale", &mut emission.scale, 1.0)
+        Value::of(key("medium.emission.scale"), &mut emission.scale)
             .opened(initial.scale)
-            .range(0.0..=1e6)
+            .within(0.0..=1e6)
             .logarithmic()
             .named("Emission scale")
-            .tip("Multiplies the radiance, which is 1 for 3000 K at 560 nm")
             .show(ui);
         hint(ui, "Radiance σa(λ) B(λ, T): only what absorbs glows. At an albedo of 1 nothing does.");
     }

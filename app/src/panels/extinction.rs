@@ -1,7 +1,7 @@
 //! Extinction by wavelength: where the medium is coloured.
 
 use super::{Column, Cx, Panel, coefficients};
-use crate::widgets::{SpectrumField, hint, spectrum_editor};
+use crate::widgets::{SpectrumField, hint, key, spectrum_editor};
 use egui::Ui;
 use majorant_core::scene::{CoefficientsDoc, DensityDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
@@ -55,9 +55,7 @@ impl Panel for Extinction {
         let medium = &mut cx.draft.medium;
         let field = SpectrumField {
             name: "Extinction",
-            unit: "",
-            max: None,
-            tip: "σt(x, λ) = scale · density(x) · extinction(λ), per scene unit",
+            key: key("medium.extinction"),
             opened: &cx.opened.medium.extinction,
             quantity: Quantity::Coefficient,
             majorant: Some(&medium.majorant),

@@ -1,9 +1,10 @@
 //! Every field of every kind of light.
 
 use crate::lab::{Command, Purpose};
-use crate::widgets::{SpectrumField, Value, Vector, path_field, row, spectrum_editor, switch};
+use crate::widgets::{SpectrumField, Value, Vector, key, path_field, row, spectrum_editor, switch};
 use egui::Ui;
 use majorant_core::scene::LightDoc;
+use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// Shows the fields of a light. `opened` is the same light in the opened scene, if it was there.
@@ -19,8 +20,8 @@ pub fn light_ui(
     let template = templates.into_iter().find(|t| t.kind_name() == light.kind_name()).unwrap_or_default();
     let opened = opened.unwrap_or(&template);
     if let LightDoc::EnvironmentMap { file, .. } = light {
-        let tip = "An equirectangular EXR or HDR picture, linear sRGB; its top row is +y";
-        if path_field(ui, "Picture", &format!("{name} picture"), "sky.exr", file, tip) {
+        let key = key("lights.*.file");
+        if path_field(ui, key.label, &format!("{name} picture"), "sky.exr", file, key.tip) {
             commands.push(Command::Ask(Purpose::EnvironmentMap(index)));
         }
     }
@@ -31,14 +32,13 @@ pub fn light_ui(
 /// Where it is and how large: the fields that differ between kinds. The three lights are of one kind.
 fn geometry_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc, template: &LightDoc) {
     use LightDoc::{EnvironmentMap, Rectangle, Sphere, Sun};
-    let place = |ui: &mut Ui, label: &str, now: &mut [f32; 3], was, default, tip: &str| {
-        let name = format!("{name} {}", label.to_lowercase());
-        Vector::new(label, name, now, default).opened(was).tip(tip).show(ui);
+    let place = |ui: &mut Ui, key: &'static Key, now: &mut [f32; 3], was, default| {
+        let name = format!("{name} {}", key.label.to_lowercase());
+        Vector::of(key, name, now).defaulting_to(default).opened(was).show(ui);
     };
-    let length = |ui: &mut Ui, label: &str, now: &mut f32, was, default| {
-        let value = Value::new(label, now, default).opened(was).range(1e-4..=f64::from(f32::MAX));
-        let name = format!("{name} {}", label.to_lowercase());
-        value.logarithmic().named(name).tip("In scene units").show(ui);
+    let length = |ui: &mut Ui, key: &'static Key, label: &str, now: &mut f32, was, default| {
+        let value = Value::of(key, now).labelled(label).defaulting_to(default).opened(was).within(1e-4..=1e9);
+        value.logarithmic().named(format!("{name} {}", label.to_lowercase())).show(ui);
     };
     match (light, opened, template) {
         (
@@ -46,38 +46,37 @@ fn geometry_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
             Rectangle { center: c1, target: t1, up: u1, size: s1, .. },
             Rectangle { center: c0, target: t0, up: u0, size: s0, .. },
         ) => {
-            place(ui, "Centre", center, *c1, *c0, "Where it is");
-            place(ui, "Target", target, *t1, *t0, "The point that its lit side faces");
-            place(ui, "Up", up, *u1, *u0, "Direction that its height leans to");
-            length(ui, "Width", &mut size[0], s1[0], s0[0]);
-            length(ui, "Height", &mut size[1], s1[1], s0[1]);
+            place(ui, key("lights.*.center"), center, *c1, *c0);
+            place(ui, key("lights.*.target"), target, *t1, *t0);
+            place(ui, key("lights.*.up"), up, *u1, *u0);
+            length(ui, key("lights.*.size"), "Width", &mut size[0], s1[0], s0[0]);
+            length(ui, key("lights.*.size"), "Height", &mut size[1], s1[1], s0[1]);
         }
         (
             Sphere { center, radius, .. },
             Sphere { center: c1, radius: r1, .. },
             Sphere { center: c0, radius: r0, .. },
         ) => {
-            place(ui, "Centre", center, *c1, *c0, "Where it is");
-            length(ui, "Radius", radius, *r1, *r0);
+            place(ui, key("lights.*.center"), center, *c1, *c0);
+            length(ui, key("lights.*.radius"), "Radius", radius, *r1, *r0);
         }
         (
             Sun { toward, angular_diameter_deg, .. },
             Sun { toward: t1, angular_diameter_deg: d1, .. },
             Sun { toward: t0, angular_diameter_deg: d0, .. },
         ) => {
-            place(ui, "Direction", toward, *t1, *t0, "From the scene to the sun");
-            let diameter = Value::new("Diameter", angular_diameter_deg, *d0).opened(*d1).unit("°");
-            let diameter = diameter.range(0.01..=90.0).logarithmic().named(format!("{name} diameter"));
-            diameter.tip("Apparent diameter: 0.53° from the earth").show(ui);
+            place(ui, key("lights.*.toward"), toward, *t1, *t0);
+            let diameter = Value::of(key("lights.*.angular_diameter_deg"), angular_diameter_deg);
+            let diameter = diameter.defaulting_to(*d0).opened(*d1).logarithmic();
+            diameter.named(format!("{name} diameter")).show(ui);
         }
         (
             EnvironmentMap { rotate_deg, .. },
             EnvironmentMap { rotate_deg: r1, .. },
             EnvironmentMap { rotate_deg: r0, .. },
         ) => {
-            let turn = Value::new("Turn", rotate_deg, *r0).opened(*r1).unit("°").range(-360.0..=360.0);
-            let turn = turn.speed(0.5).named(format!("{name} turn"));
-            turn.tip("Turns the picture about the y axis").show(ui);
+            let turn = Value::of(key("lights.*.rotate_deg"), rotate_deg).defaulting_to(*r0).opened(*r1);
+            turn.within(-360.0..=360.0).speed(0.5).named(format!("{name} turn")).show(ui);
         }
         _ => {}
     }
@@ -89,23 +88,17 @@ fn emission_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
     let (scale_default, _) = emission(template);
     let irradiance = matches!(light, LightDoc::Sun { .. });
     let (scale, spectrum, visible) = emission_mut(light);
-    let tip = match irradiance {
-        true => "E(λ) = scale · irradiance(λ) on a surface that faces the sun",
-        false => "Le(λ) = scale · radiance(λ), per scene unit², steradian and nm",
-    };
-    let value = Value::new("Scale", scale, scale_default).opened(scale_before);
-    let value = value.range(0.0..=f64::from(f32::MAX)).logarithmic().named(format!("{name} scale"));
-    value.tip(tip).show(ui);
+    let emitted = if irradiance { key("lights.*.irradiance") } else { key("lights.*.radiance") };
+    let value = Value::of(key("lights.*.scale"), scale).defaulting_to(scale_default).opened(scale_before);
+    value.logarithmic().named(format!("{name} scale")).show(ui);
     if let Some(spectrum) = spectrum {
-        let quantity = if irradiance { "Irradiance" } else { "Radiance" };
+        let quantity = emitted.label;
         let text = super::extinction::in_words(spectrum);
-        row(ui, quantity, tip, |ui, _| ui.weak(text));
+        row(ui, quantity, emitted.tip, |ui, _| ui.weak(text));
         let now = spectrum.clone();
         let field = SpectrumField {
             name: &format!("{name} {}", quantity.to_lowercase()),
-            unit: "",
-            max: None,
-            tip,
+            key: emitted,
             opened: spectrum_before.unwrap_or(&now),
             quantity: Quantity::Radiance,
             majorant: None,
@@ -115,8 +108,8 @@ fn emission_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
             .id_salt("spectrum")
             .show_unindented(ui, |ui| spectrum_editor(ui, &field, spectrum));
     }
-    let tip = "Whether the camera sees it directly; it lights the medium either way";
-    switch(ui, "Visible", &format!("{name} visible"), visible, "to the camera", tip);
+    let key = key("lights.*.visible");
+    switch(ui, key.label, &format!("{name} visible"), visible, "to the camera", key.tip);
 }
 
 fn emission(light: &LightDoc) -> (f32, Option<&SpectrumDoc>) {

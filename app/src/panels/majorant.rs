@@ -4,9 +4,10 @@ use super::factor_curve::factor_curve_ui;
 use super::{Column, Cx, Panel};
 use crate::lab::Command;
 use crate::theme::Palette;
-use crate::widgets::{Value, badge, callout, format_number, hint, optional, row, segmented, switch};
+use crate::widgets::{
+    Value, badge, callout, format_number, hint, key, optional_key, row, row_of, segmented, switch,
+};
 use egui::{Color32, Sense, Slider, Ui, vec2};
-use majorant_core::medium::MAX_MAJORANT_CELLS;
 use majorant_core::scene::{MajorantDoc, WhenExceeded};
 
 /// See the [module](self).
@@ -38,23 +39,20 @@ impl Panel for Majorant {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let default = MajorantDoc::default();
         let majorant = &mut cx.draft.medium.majorant;
-        Value::new("Factor", &mut majorant.factor, default.factor)
+        Value::of(key("medium.majorant.factor"), &mut majorant.factor)
             .opened(cx.opened.medium.majorant.factor)
-            .range(0.1..=16.0)
+            .within(0.1..=16.0)
             .logarithmic()
             .named("Majorant factor")
-            .tip("μ(x, λ) = factor · the largest σt(λ) in the cell around x. 1 is tight; above it null collisions are added")
             .show(ui);
         let cells = cx.state.scene.as_ref().and_then(|info| info.majorant_cells);
         let automatic = cells.map_or_else(|| "automatic".into(), |n| format!("automatic: {n}³"));
-        let tip = "Cells per axis of the grid of local majorants, 1 to 128. 1 is one majorant for the whole box; \
-                   finer ones are tighter and cost more steps. Automatic: the cheapest to fly through";
         let (resolution, opened) = (&mut majorant.resolution, cx.opened.medium.majorant.resolution);
         let initial = cells.unwrap_or(16) as u32;
-        optional(ui, "Resolution", (resolution, opened), initial, &automatic, tip, |v| {
-            v.range(1.0..=f64::from(MAX_MAJORANT_CELLS)).logarithmic()
+        let resolution = (resolution, opened);
+        optional_key(ui, key("medium.majorant.resolution"), resolution, initial, &automatic, |v| {
+            v.logarithmic()
         });
         if let Some(info) = cx.state.scene.as_ref() {
             tightness_ui(ui, info.tightness);
@@ -88,9 +86,9 @@ impl Panel for Majorant {
         }
         slice_ui(ui, cx.settings.majorant_slice, cells.is_some(), cx.commands);
         let majorant = &mut cx.draft.medium.majorant;
-        let shared = "Every wavelength gets the largest one's majorant";
-        switch(ui, "Shared", "Shared majorant", &mut majorant.shared, "by all wavelengths", shared);
-        row(ui, "Where exceeded", "What happens where σt is larger than μ", |ui, _| {
+        let shared = key("medium.majorant.shared");
+        switch(ui, shared.label, "Shared majorant", &mut majorant.shared, "by all wavelengths", shared.tip);
+        row_of(ui, key("medium.majorant.when_exceeded"), |ui, _| {
             let options = [
                 (WhenExceeded::Weighted, "Weighted", "σn = μ − σt turns negative; the weights stay right"),
                 (WhenExceeded::Clamp, "Clamp", "σn is held at 0: the textbook mistake, biased"),

@@ -2,9 +2,10 @@
 
 use super::lights::{Change, add_ui, card_ui};
 use super::{Column, Cx, Panel};
-use crate::widgets::{SpectrumField, Vector, hint, row, spectrum_editor};
+use crate::widgets::{SpectrumField, Vector, hint, key, row, spectrum_editor};
 use egui::Ui;
 use majorant_core::scene::ObjectDoc;
+use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// See the [module](self).
@@ -60,10 +61,9 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
     let templates = ObjectDoc::templates().into_iter().map(|(_, template)| template);
     let Some(template) = templates.into_iter().find(|t| t.kind_name() == object.kind_name()) else { return };
     let opened = opened.unwrap_or(&template);
-    let place = |label, now| (label, format!("{name} {}", str::to_lowercase(label)), now);
-    let show = |ui: &mut Ui, (label, name, now): (&str, String, &mut [f32; 3]), was, default, tip: &str| {
-        let row = Vector::new(label, name, now, default).opened(was).tip(tip);
-        if label == "Rotation" { row.degrees().show(ui) } else { row.show(ui) }
+    let show = |ui: &mut Ui, key: &'static Key, now: &mut [f32; 3], was, default| {
+        let name = format!("{name} {}", key.label.to_lowercase());
+        Vector::of(key, name, now).defaulting_to(default).opened(was).show(ui);
     };
     // All three are of one kind.
     match (object, opened, &template) {
@@ -72,8 +72,8 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
             ObjectDoc::Ground { point: p1, normal: n1, albedo: a1 },
             ObjectDoc::Ground { point: p0, normal: n0, .. },
         ) => {
-            show(ui, place("Point", point), *p1, *p0, "A point on the plane");
-            show(ui, place("Normal", normal), *n1, *n0, "The direction that its top faces");
+            show(ui, key("objects.*.point"), point, *p1, *p0);
+            show(ui, key("objects.*.normal"), normal, *n1, *n0);
             albedo_ui(ui, &name, albedo, a1);
         }
         (
@@ -81,9 +81,9 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
             ObjectDoc::Box { center: c1, size: s1, rotate_deg: r1, albedo: a1 },
             ObjectDoc::Box { center: c0, size: s0, rotate_deg: r0, .. },
         ) => {
-            show(ui, place("Centre", center), *c1, *c0, "Where it is");
-            show(ui, place("Size", size), *s1, *s0, "Edge lengths");
-            show(ui, place("Rotation", rotate_deg), *r1, *r0, "Turns about x, then y, then z");
+            show(ui, key("objects.*.center"), center, *c1, *c0);
+            show(ui, key("objects.*.size"), size, *s1, *s0);
+            show(ui, key("objects.*.rotate_deg"), rotate_deg, *r1, *r0);
             albedo_ui(ui, &name, albedo, a1);
         }
         _ => {}
@@ -91,14 +91,12 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
 }
 
 fn albedo_ui(ui: &mut Ui, name: &str, albedo: &mut SpectrumDoc, opened: &SpectrumDoc) {
-    let tip = "Reflected share of the light that arrives, 0 to 1";
+    let key = key("objects.*.albedo");
     let text = super::extinction::in_words(albedo);
-    row(ui, "Albedo", tip, |ui, _| ui.weak(text));
+    row(ui, key.label, key.tip, |ui, _| ui.weak(text));
     let field = SpectrumField {
         name: &format!("{name} albedo"),
-        unit: "",
-        max: Some(1.0),
-        tip,
+        key,
         opened,
         quantity: Quantity::Coefficient,
         majorant: None,

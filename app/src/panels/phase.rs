@@ -5,7 +5,7 @@ use crate::lab::Command;
 use crate::widgets::{Value, format_number, phase_lobe, row, segmented};
 use egui::Ui;
 use majorant_core::phase::{Parameter, Phase};
-use majorant_core::scene::PhaseDoc;
+use majorant_core::scene::{PhaseDoc, keys};
 
 /// See the [module](self).
 pub struct PhaseFunction;
@@ -89,12 +89,14 @@ fn parameters_ui(ui: &mut Ui, phase: &mut PhaseDoc, opened: &PhaseDoc) {
     // What the scene had when it was opened counts if it was of the same kind.
     let opened = if opened.kind() == phase.kind() { opened.parameters() } else { Vec::new() };
     let default = default.unwrap_or_default();
+    let kind = phase.clone();
     for (index, (parameter, value)) in phase.parameters_mut().into_iter().enumerate() {
         let of = |from: &[(&Parameter, f32)]| from.get(index).map(|(_, value)| *value);
         let (before, default) = (of(&opened).unwrap_or(*value), of(&default).unwrap_or(*value));
-        let [lo, hi] = parameter.range.map(f64::from);
-        let field = Value::new(parameter.label, value, default).opened(before).unit(parameter.unit);
-        let field = field.range(lo..=hi).named(format!("Phase {}", parameter.label)).tip(parameter.about);
+        // The same key may mean different things in two kinds.
+        let Some(key) = keys::phase_key(&kind, parameter) else { continue };
+        let field = Value::of(key, value).defaulting_to(default).opened(before);
+        let field = field.named(format!("Phase {}", parameter.label));
         let field = if parameter.logarithmic { field.logarithmic() } else { field.speed(0.005) };
         field.show(ui);
     }

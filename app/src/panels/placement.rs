@@ -1,6 +1,6 @@
 //! Where the medium's box stands: part of the density panel.
 
-use crate::widgets::{Vector, hint, optional};
+use crate::widgets::{Vector, hint, key, optional_key};
 use egui::Ui;
 use majorant_core::scene::PlacementDoc;
 
@@ -8,9 +8,9 @@ use majorant_core::scene::PlacementDoc;
 pub fn placement_ui(ui: &mut Ui, placement: &mut PlacementDoc, opened: &PlacementDoc) {
     let title = egui::RichText::new("Placement").small();
     egui::CollapsingHeader::new(title).id_salt("placement").show_unindented(ui, |ui| {
-        let tip = "Centres the box on the origin and scales its longest side to this length";
-        optional(ui, "Fit", (&mut placement.fit, opened.fit), 1.0, "as stored in the file", tip, |v| {
-            v.range(1e-4..=f64::from(f32::MAX)).logarithmic()
+        let fit = (&mut placement.fit, opened.fit);
+        optional_key(ui, key("medium.placement.fit"), fit, 1.0, "as stored in the file", |v| {
+            v.within(1e-4..=1e9).logarithmic()
         });
         if placement.matrix.is_some() {
             hint(ui, "The scene file places the box by a matrix.");
@@ -19,19 +19,14 @@ pub fn placement_ui(ui: &mut Ui, placement: &mut PlacementDoc, opened: &Placemen
             }
             return;
         }
-        let default = PlacementDoc::default();
-        Vector::new("Translate", "Medium translation", &mut placement.translate, default.translate)
+        Vector::of(key("medium.placement.translate"), "Medium translation", &mut placement.translate)
             .opened(opened.translate)
-            .tip("Moves the box, scene units")
             .show(ui);
-        Vector::new("Rotate", "Medium rotation", &mut placement.rotate_deg, default.rotate_deg)
+        Vector::of(key("medium.placement.rotate_deg"), "Medium rotation", &mut placement.rotate_deg)
             .opened(opened.rotate_deg)
-            .degrees()
-            .tip("Turns about x, then y, then z")
             .show(ui);
-        Vector::new("Scale", "Medium scale", &mut placement.scale, default.scale)
+        Vector::of(key("medium.placement.scale"), "Medium scale", &mut placement.scale)
             .opened(opened.scale)
-            .tip("Stretches the box along its axes")
             .show(ui);
     });
 }

@@ -4,7 +4,7 @@ use super::edit::WallEdit;
 use super::state::{Tool, Wall};
 use crate::lab::{Command, Purpose};
 use crate::theme::Palette;
-use crate::widgets::{Value, callout, hint, optional};
+use crate::widgets::{callout, hint, key, optional_key};
 use egui::{Button, ComboBox, ProgressBar, RichText, Ui, vec2};
 use majorant_core::compare::{label, maps};
 use majorant_core::estimator::REGISTRY;
@@ -235,20 +235,11 @@ fn reference_menu_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
                 })
                 .response
                 .accessible_name("Estimator of the reference");
-            let tip = "It stops at so many samples per pixel";
-            optional(ui, "Stop at", (spp, opened_spp), 4096, "no limit", tip, |v: Value<'_, u64>| {
-                v.unit("spp").range(1.0..=1e9)
+            optional_key(ui, key("compare.reference.spp"), (spp, opened_spp), 4096, "no limit", |v| v);
+            let error = (relative_error, opened_error);
+            optional_key(ui, key("compare.reference.relative_error"), error, 0.01, "no limit", |v| {
+                v.within(1e-5..=1.0).logarithmic()
             });
-            let tip = "It stops when its standard error is this share of the image's mean";
-            optional(
-                ui,
-                "Error",
-                (relative_error, opened_error),
-                0.01,
-                "no limit",
-                tip,
-                |v: Value<'_, f32>| v.range(1e-5..=1.0).logarithmic(),
-            );
         });
     }
     let file = match current {

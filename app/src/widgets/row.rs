@@ -2,6 +2,12 @@
 
 use crate::theme::LABEL_WIDTH;
 use egui::{Align, Id, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
+use majorant_core::scene::keys::Key;
+
+/// The row of a key, with its label and meaning.
+pub fn row_of<R>(ui: &mut Ui, key: &'static Key, add: impl FnOnce(&mut Ui, Id) -> R) -> R {
+    row(ui, key.label, key.tip, add)
+}
 
 /// A row; `add` gets the rest of the line and the label's id, to name its widget by.
 pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id) -> R) -> R {

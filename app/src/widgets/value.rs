@@ -10,6 +10,7 @@ use egui::{
     Align, Button, DragValue, Id, Layout, Rect, Response, RichText, TextStyle, Ui, UiBuilder, emath::Numeric,
     pos2, vec2,
 };
+use majorant_core::scene::keys::Key;
 use std::ops::RangeInclusive;
 
 /// Width of the reset button, at the end of the label column.
@@ -44,6 +45,39 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
             opened: default,
             tip: "",
         }
+    }
+
+    /// A number of a key: with its label, unit, meaning, default, and exactly the values that it allows.
+    pub fn of(key: &'static Key, value: &'a mut N) -> Self {
+        let default = key.default_value().and_then(|v| v.as_float().or(v.as_integer().map(|n| n as f64)));
+        let default = default.map_or(*value, N::from_f64);
+        let mut field = Self::new(key.label, value, default).unit(key.unit).tip(key.tip);
+        if let Some(range) = key.range() {
+            field.range = range.inner();
+        }
+        field
+    }
+
+    /// A default of its own, where it is not that of a key.
+    #[must_use]
+    pub fn defaulting_to(mut self, default: N) -> Self {
+        (self.default, self.opened) = (default, default);
+        self
+    }
+
+    /// A label of its own.
+    #[must_use]
+    pub fn labelled(mut self, label: &'a str) -> Self {
+        self.label = label;
+        self
+    }
+
+    /// The part of the allowed range that dragging and typing reach; never more than that.
+    #[must_use]
+    pub fn within(mut self, range: RangeInclusive<f64>) -> Self {
+        let (low, high) = (range.start().max(*self.range.start()), range.end().min(*self.range.end()));
+        self.range = low..=high;
+        self
     }
 
     /// The value that the scene had when it was opened or saved: what the reset button goes back to.
@@ -156,6 +190,17 @@ pub(super) fn drag<N: Numeric>(
     response
 }
 
+/// A whole number of a key without a row of its own, named by the key; dragging and typing reach `most`.
+pub fn whole(ui: &mut Ui, key: &'static Key, value: &mut u32, most: u32, width: f32) {
+    let range = Value::of(key, value).within(0.0..=f64::from(most)).range;
+    let drag = DragValue::new(value)
+        .range(*range.start() as u32..=*range.end() as u32)
+        .speed(2.0)
+        .update_while_editing(false)
+        .min_size(vec2(width, ui.spacing().interact_size.y));
+    ui.add(drag).accessible_name(key.label);
+}
+
 /// A hairline at the foot of the field that shows where the value lies in its range.
 fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f64>, logarithmic: bool) {
     let (low, high) = (*range.start(), *range.end());
@@ -207,6 +252,21 @@ pub(super) fn reset_button(ui: &mut Ui, field: &Response, name: &str, opened: &s
     button.on_hover_text(format!("Back to {opened}")).accessible_name(format!("Reset {name}")).clicked()
 }
 
+/// A row with the optional number of a key, given with what it was when opened. `off` stands for its absence.
+pub fn optional_key<N: Numeric + PartialEq>(
+    ui: &mut Ui,
+    key: &'static Key,
+    (value, opened): (&mut Option<N>, Option<N>),
+    initial: N,
+    off: &str,
+    style: impl FnOnce(Value<'_, N>) -> Value<'_, N>,
+) {
+    optional(ui, key.label, (value, opened), initial, off, key.tip, |v| {
+        let Value { value, .. } = v;
+        style(Value::of(key, value).named(key.label))
+    });
+}
+
 /// A row with an optional number, given with what it was when opened: a switch, and the number while it
 /// is on.
 pub fn optional<N: Numeric + PartialEq>(
@@ -242,4 +302,31 @@ pub fn optional<N: Numeric + PartialEq>(
             *value = opened;
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::scene::keys::{self, Type};
+
+    /// What a field reaches is what validation allows, and narrowing it never widens it.
+    #[test]
+    fn fields_reach_what_their_keys_allow_and_no_more() {
+        let mut fields = 0;
+        for key in keys::all() {
+            let Some(range) = key.range().filter(|_| matches!(key.value, Type::Number(_))) else { continue };
+            let mut value = 0.0f32;
+            let field = Value::of(key, &mut value);
+            for reached in [field.range.clone(), field.within(f64::MIN..=f64::MAX).range] {
+                for end in [*reached.start(), *reached.end()] {
+                    assert!(range.holds(end as f32), "{}: {end}", key.path);
+                }
+            }
+            let middle = 0.5 * (range.min.max(-1.0) + range.max.min(1.0));
+            let narrow = Value::of(key, &mut value).within(middle..=1e12).range;
+            assert!(*narrow.start() >= middle && *narrow.end() <= range.max, "{}", key.path);
+            fields += 1;
+        }
+        assert!(fields > 20, "{fields}");
+    }
 }

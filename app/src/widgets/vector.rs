@@ -4,6 +4,8 @@ use super::number::format_number;
 use super::row::row;
 use super::value::{drag, reset_button, reset_menu};
 use egui::Ui;
+use majorant_core::scene::keys::Key;
+use std::ops::RangeInclusive;
 
 /// A row with three numbers.
 pub struct Vector<'a> {
@@ -14,13 +16,45 @@ pub struct Vector<'a> {
     opened: [f32; 3],
     unit: &'a str,
     speed: f64,
+    range: RangeInclusive<f64>,
     tip: &'a str,
 }
 
 impl<'a> Vector<'a> {
     /// Three numbers with a label, a name that is unique in the window, and their default.
     pub fn new(label: &'a str, name: impl Into<String>, value: &'a mut [f32; 3], default: [f32; 3]) -> Self {
-        Self { label, name: name.into(), value, default, opened: default, unit: "", speed: 0.01, tip: "" }
+        let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
+        Self {
+            label,
+            name: name.into(),
+            value,
+            default,
+            opened: default,
+            unit: "",
+            speed: 0.01,
+            range,
+            tip: "",
+        }
+    }
+
+    /// Three numbers of a key: with its label, unit, meaning, default, and exactly the values that it allows.
+    pub fn of(key: &'static Key, name: impl Into<String>, value: &'a mut [f32; 3]) -> Self {
+        let default = key.default_value().and_then(|v| v.try_into().ok()).unwrap_or(*value);
+        let mut field = Self::new(key.label, name, value, default).tip(key.tip);
+        if key.unit == "°" {
+            field = field.degrees();
+        }
+        if let Some(range) = key.range() {
+            field.range = range.inner();
+        }
+        field
+    }
+
+    /// A default of its own, where it is not that of a key.
+    #[must_use]
+    pub fn defaulting_to(mut self, default: [f32; 3]) -> Self {
+        (self.default, self.opened) = (default, default);
+        self
     }
 
     /// What they were when the scene was opened or saved.
@@ -46,11 +80,10 @@ impl<'a> Vector<'a> {
 
     /// Shows the row.
     pub fn show(self, ui: &mut Ui) {
-        let Self { label, name, value, default, opened, unit, speed, tip } = self;
+        let Self { label, name, value, default, opened, unit, speed, range, tip } = self;
         row(ui, label, tip, |ui, _| {
             let gap = 4.0;
             let width = (ui.available_width() - 2.0 * gap) / 3.0;
-            let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
             let outer = (ui.spacing().item_spacing.x, ui.spacing().button_padding.x);
             // Three numbers share the room of one.
             ui.spacing_mut().button_padding.x = 3.0;

@@ -7,7 +7,7 @@
 use crate::check::{BATCHES, Batches, CheckError, Layout, Plan, own_scene};
 use crate::estimator::{self, Kernel, Settings};
 use crate::io::Library;
-use crate::scene::{Scene, SceneDoc, WhenExceeded, build};
+use crate::scene::{Scene, SceneDoc, build};
 use crate::transport::Wanted;
 
 /// The factors of a curve.
@@ -35,8 +35,8 @@ pub struct FactorPoint {
 }
 
 /// Measures the curve of a scene under its own estimator, point by point; `Ok(None)` if it was cancelled. The mean is
-/// held against a longer run at factor 1, which bounds; the document's own choice of what happens where the majorant
-/// is exceeded is kept.
+/// held against a longer run at factor 1, which bounds, without any setting that biases; the points keep the
+/// document's own settings.
 ///
 /// # Errors
 /// When the scene cannot be frozen.
@@ -50,21 +50,18 @@ pub fn factor_curve(
     let case = own_scene(name, doc, library);
     let mut library = case.library;
     let Some(entry) = estimator::find(&case.doc.estimator.id) else { return Ok(Some(())) };
-    let mut picture = |factor: f32, seed: u64, paths: u64, clamped: bool| {
-        let mut doc = case.doc.clone();
+    let mut picture = |factor: f32, seed: u64, paths: u64, reference: bool| {
+        let mut doc = if reference { case.doc.unbiased() } else { case.doc.clone() };
         doc.medium.majorant.factor = factor;
-        if !clamped {
-            doc.medium.majorant.when_exceeded = WhenExceeded::Weighted;
-        }
         let scene = build(&doc, &mut library)
             .map_err(|source| CheckError::Build { name: name.to_owned(), source })?;
         let settings = Settings::new(&doc.estimator, doc.render.seed.wrapping_add(seed));
         Ok::<_, CheckError>(render(&scene, entry.kernel, &settings, paths, wanted))
     };
-    let Some(reference) = picture(1.0, u64::MAX / 2, REFERENCE * PATHS, false)? else { return Ok(None) };
+    let Some(reference) = picture(1.0, u64::MAX / 2, REFERENCE * PATHS, true)? else { return Ok(None) };
     let (truth, uncertainty) = reference.whole();
     for (seed, factor) in (1..).zip(FACTORS) {
-        let Some(batches) = picture(factor, seed, PATHS, true)? else { return Ok(None) };
+        let Some(batches) = picture(factor, seed, PATHS, false)? else { return Ok(None) };
         let (mean, error) = batches.whole();
         let (paths, lookups) = (batches.paths as f64, batches.lookups as f64);
         on_point(FactorPoint {

@@ -1,12 +1,12 @@
 //! Runs a plan.
 
 use super::{Entrant, Plan, ReferencePlan, Row, Subject, Trial};
-use crate::compare::Reference;
+use crate::compare::{Reference, unfit_document};
 use crate::estimator::{self, Entry};
 use crate::film::Images;
 use crate::math::SamplerKind;
 use crate::measure::{self, MeasureError, Picture, Region};
-use crate::scene::{EstimatorDoc, Scene, SceneError, build};
+use crate::scene::{EstimatorDoc, Scene, SceneDoc, SceneError, build};
 use crate::session::{Batch, Budget, Probe, render};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::Arc;
@@ -28,6 +28,26 @@ pub enum BenchError {
         /// Which.
         scene: String,
         /// What biases it.
+        reason: &'static str,
+    },
+    /// The reference has random numbers of a trial: what they have in common looks like accuracy.
+    #[error(
+        "{scene}: the reference was rendered with seed {seed}, which is also a trial's: set render.seed to {free} or more"
+    )]
+    SameSeed {
+        /// Which.
+        scene: String,
+        /// The seed.
+        seed: u64,
+        /// The least seed of the scene with which no trial has it.
+        free: u64,
+    },
+    /// The reference is biased, or its noise cannot be told.
+    #[error("{scene}: the reference cannot be one: {reason}")]
+    UnfitReference {
+        /// Which.
+        scene: String,
+        /// What is wrong with it.
         reason: &'static str,
     },
     /// The reference is of another size.
@@ -92,7 +112,7 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
             done += 1;
         };
         report(format!("{}  reference", subject.name), &[]);
-        let reference = runner.reference()?;
+        let reference = runner.reference(plan.repeats)?;
         let mut trials = vec![Vec::new(); entrants.len()];
         for repeat in 0..plan.repeats {
             for (entrant, trials) in entrants.iter().zip(&mut trials) {
@@ -119,15 +139,17 @@ struct Runner<'a> {
 impl<'a> Runner<'a> {
     fn new(subject: &'a Subject, unbiased: &[&Entrant], pool: &'a ThreadPool) -> Result<Self, BenchError> {
         let scene = subject.name.clone();
-        let mut library = subject.library.clone();
-        let frozen = pool
-            .install(|| build(&subject.doc, &mut library))
-            .map_err(|source| BenchError::Scene { scene: scene.clone(), source })?;
         let biased = subject.entrants.first().and_then(|entrant| entrant.bias(&subject.doc));
         match biased.filter(|_| unbiased.is_empty()) {
             Some(reason) => Err(BenchError::Biased { scene, reason }),
-            None => Ok(Self { subject, scene: Arc::new(frozen), pool }),
+            None => Ok(Self { subject, scene: Self::frozen(subject, &subject.doc, pool)?, pool }),
         }
+    }
+
+    fn frozen(subject: &Subject, doc: &SceneDoc, pool: &ThreadPool) -> Result<Arc<Scene>, BenchError> {
+        let mut library = subject.library.clone();
+        let frozen = pool.install(|| build(doc, &mut library));
+        frozen.map(Arc::new).map_err(|source| BenchError::Scene { scene: subject.name.clone(), source })
     }
 
     /// A run under a seed of its own.
@@ -137,14 +159,36 @@ impl<'a> Runner<'a> {
         render(&probe, self.pool, budget)
     }
 
-    fn reference(&self) -> Result<Reference, BenchError> {
+    /// A picture that is there already, unless it is a trial's own or says that it is biased.
+    fn given(&self, reference: &Reference, repeats: u32) -> Result<Reference, BenchError> {
+        let (scene, first) = (self.subject.name.clone(), self.subject.doc.render.seed);
+        if let Some(reason) = reference.unfit {
+            return Err(BenchError::UnfitReference { scene, reason });
+        }
+        match reference.seed {
+            Some(seed) if seed.wrapping_sub(first) < u64::from(repeats) => {
+                Err(BenchError::SameSeed { scene, seed, free: seed.wrapping_add(1) })
+            }
+            _ => Ok(reference.clone()),
+        }
+    }
+
+    fn reference(&self, repeats: u32) -> Result<Reference, BenchError> {
         match &self.subject.reference {
-            ReferencePlan::Given(reference) => Ok((**reference).clone()),
+            ReferencePlan::Given(reference) => self.given(reference, repeats),
             ReferencePlan::Own { estimator, seconds } => {
                 let seed = self.subject.doc.render.seed.wrapping_sub(1);
-                let mut settings = self.subject.doc.estimator.clone();
-                settings.sampler = SamplerKind::Independent;
-                let batch = self.batch(estimator, &settings, seed, Budget::Seconds(*seconds));
+                let doc = reference_doc(&self.subject.doc, estimator);
+                if let Some(reason) = unfit_document(&doc) {
+                    return Err(BenchError::UnfitReference { scene: self.subject.name.clone(), reason });
+                }
+                let batch = if doc.scene_part() == self.subject.doc.scene_part() {
+                    self.batch(estimator, &doc.estimator, seed, Budget::Seconds(*seconds))
+                } else {
+                    let scene = Self::frozen(self.subject, &doc, self.pool)?;
+                    let runner = Runner { subject: self.subject, scene, pool: self.pool };
+                    runner.batch(estimator, &doc.estimator, seed, Budget::Seconds(*seconds))
+                };
                 let images = self.pool.install(|| Images::of(&batch.film));
                 let origin = format!("own run of {}, {} samples per pixel", estimator.name, batch.spp);
                 let Batch { film, .. } = batch;
@@ -179,6 +223,14 @@ impl<'a> Runner<'a> {
     }
 }
 
+/// What a reference of its own renders: nothing in it biases, and its error bars are exact.
+fn reference_doc(doc: &SceneDoc, estimator: &Entry) -> SceneDoc {
+    let mut doc = doc.unbiased();
+    estimator.id.clone_into(&mut doc.estimator.id);
+    doc.estimator.sampler = SamplerKind::Independent;
+    doc
+}
+
 /// relMSE without the reference's share.
 fn relmse(picture: &Picture, reference: &Reference) -> Result<f64, MeasureError> {
     let against = measure::Reference {
@@ -190,4 +242,53 @@ fn relmse(picture: &Picture, reference: &Reference) -> Result<f64, MeasureError>
     measure.map_or(Ok(f64::NAN), |measure| {
         measure(picture, &against, whole).map(|m| m.value - m.reference_share)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::{Library, scene_file};
+    use crate::scene::{Bookkeeping, Fault, WhenExceeded};
+
+    fn subject(reference: ReferencePlan) -> Subject {
+        let text = "majorant = 1\nfilm = { width = 4, height = 3 }\nrender = { seed = 5 }\nestimator = { id = \"nee\" }";
+        let doc = scene_file::parse(text, "bench").unwrap();
+        let entrants = vec![Entrant::of(estimator::find("nee").unwrap(), &doc)];
+        Subject { name: "bench".into(), doc, library: Library::default(), entrants, reference }
+    }
+
+    fn refused(seed: Option<u64>, unfit: Option<&'static str>) -> Option<String> {
+        let pixels = vec![[1.0; 3]; 12];
+        let mut reference = Reference::own((4, 3), pixels.clone(), pixels, "theirs".into());
+        (reference.seed, reference.unfit) = (seed, unfit);
+        let subjects = vec![subject(ReferencePlan::Given(Box::new(reference)))];
+        let plan = Plan { subjects, budget: Budget::Samples(2), repeats: 3, threads: Some(1) };
+        run(&plan, |_| {}).err().map(|e| e.to_string())
+    }
+
+    #[test]
+    fn a_reference_with_random_numbers_of_a_trial_is_refused() {
+        for seed in [5, 6, 7] {
+            let message = refused(Some(seed), None).unwrap();
+            assert!(message.contains(&format!("render.seed to {}", seed + 1)), "{message}");
+        }
+        for seed in [None, Some(4), Some(8)] {
+            assert_eq!(refused(seed, None), None);
+        }
+        assert!(refused(None, Some("it is wrong")).unwrap().contains("it is wrong"));
+    }
+
+    #[test]
+    fn nothing_biases_a_reference_of_its_own() {
+        let entry = estimator::find("uni-nee-mis").unwrap();
+        let mut doc = SceneDoc::default();
+        let plain = reference_doc(&doc, entry);
+        doc.estimator.fault = Fault::PhaseInBoth;
+        doc.estimator.bookkeeping = Bookkeeping::ApartF32;
+        doc.estimator.transmittance = "marching".into();
+        doc.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+        doc.medium.majorant.factor = 0.5;
+        assert_eq!(reference_doc(&doc, entry), plain);
+        assert_eq!(unfit_document(&plain), None);
+    }
 }

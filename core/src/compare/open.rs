@@ -4,7 +4,7 @@ use super::experiment::label;
 use super::reference::Reference;
 use crate::io::picture::{self, PictureError};
 use crate::io::{Library, scene_file};
-use crate::scene::{Mode, SceneDoc};
+use crate::scene::{Mode, SceneDoc, keys};
 use std::path::Path;
 
 /// Why a picture cannot be the reference of a scene.
@@ -27,6 +27,17 @@ pub enum ReferenceError {
         /// Those of the scene.
         scene: [usize; 2],
     },
+    /// It is a picture of the scene with a wrong mean, or with noise that cannot be told.
+    #[error(
+        "the reference {file} cannot be one: {reason}. Render a new one with `majorant render SCENE --spp 4096 -o \
+         {file}`, or name another file"
+    )]
+    Unfit {
+        /// The reference's file.
+        file: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// It is a picture of something else.
     #[error(
         "the reference {file} shows another image ({reference}) than the scene ({scene}): {check}. Render a new \
@@ -48,7 +59,7 @@ pub enum ReferenceError {
 /// by another renderer, is taken on trust, with a note.
 ///
 /// # Errors
-/// When it cannot be read, or has another size or shows another image than the scene.
+/// When it cannot be read, has another size or shows another image than the scene, or is biased by its own settings.
 pub fn open(
     file: &str,
     doc: &SceneDoc,
@@ -61,12 +72,15 @@ pub fn open(
     notes.extend(reference.notices.iter().cloned());
     let (size, scene) =
         ([reference.width, reference.height], [doc.film.width as usize, doc.film.height as usize]);
+    if let Some(reason) = reference.unfit {
+        return Err(ReferenceError::Unfit { file, reason });
+    }
     let target = library.fingerprint(doc);
     if size != scene {
         return Err(ReferenceError::Size { file, reference: size, scene });
     }
     match reference.target.take() {
-        Some(shown) if shown != target => {
+        Some(shown) if !library.is_named(&shown, doc) => {
             let check = difference(&path, doc);
             return Err(ReferenceError::Target { file, reference: shown, scene: target, check });
         }
@@ -128,13 +142,9 @@ fn difference(path: &Path, doc: &SceneDoc) -> String {
             depth(b.estimator.max_depth)
         ));
     }
-    let parts = [
-        ("camera", a.camera != b.camera),
-        ("medium", a.medium != b.medium),
-        ("lights", a.lights != b.lights),
-        ("objects", a.objects != b.objects),
-    ];
-    let others: Vec<&str> = parts.iter().filter(|(_, differs)| *differs).map(|(name, _)| *name).collect();
+    let others: Vec<&str> =
+        keys::changed(&a, &b).unwrap_or_default().into_iter().map(|key| key.path).collect();
+    let others: Vec<&str> = others.into_iter().filter(|path| !path.starts_with("estimator.")).collect();
     if !others.is_empty() {
         found.push(format!("these differ: {}", others.join(", ")));
     }
@@ -194,6 +204,26 @@ mod tests {
         let size = refused(|d| d.film.width = 25);
         assert!(size.contains("24 × 16") && size.contains("25 × 16"), "{size}");
         assert!(opened("nowhere.exr", &doc).0.unwrap_err().to_string().contains("nowhere.exr"));
+    }
+
+    #[test]
+    fn a_picture_with_a_planted_mistake_is_no_reference() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut doc, _) = rendered(folder.path());
+        (doc.estimator.id, doc.estimator.fault) = ("uni-nee-mis".into(), crate::scene::Fault::PhaseInBoth);
+        doc.compare.views.clear();
+        let Finished { experiment, .. } = run(&doc, Library::default(), |_| {}).unwrap();
+        let path = folder.path().join("wrong.exr");
+        let view = &experiment.views[0].1;
+        export::write_exr(&path, &view.snapshot, &view.doc).unwrap();
+        let message = opened(&path.display().to_string(), &doc.unbiased()).0.unwrap_err().to_string();
+        assert!(message.contains("a fault is planted"), "{message}");
+        // One that overflowed says so, too.
+        let mut lossy = (*view.snapshot).clone();
+        lossy.tally.non_finite = 3;
+        export::write_exr(&path, &lossy, &doc.unbiased()).unwrap();
+        let message = opened(&path.display().to_string(), &doc.unbiased()).0.unwrap_err().to_string();
+        assert!(message.contains("not finite"), "{message}");
     }
 
     #[test]

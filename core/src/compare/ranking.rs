@@ -2,6 +2,7 @@
 
 use super::agreement::{Agreement, Verdict, agreement};
 use super::estimate::{Estimate, RegionNoise};
+use super::fitness::unfit_picture;
 use super::reference::Reference;
 use crate::estimator;
 use crate::film::Snapshot;
@@ -32,6 +33,13 @@ impl Contender<'_> {
     #[must_use]
     pub fn declared_bias(&self) -> Option<&'static str> {
         estimator::find(&self.doc.estimator.id).and_then(|e| e.bias(self.doc))
+    }
+
+    /// Why its picture says nothing about another's bias, if so: what it is held against has to be unbiased, with noise
+    /// that can be told.
+    #[must_use]
+    pub fn unfit_as_reference(&self) -> Option<&'static str> {
+        unfit_picture(self.doc, self.snapshot)
     }
 
     /// Whether two views may be held against each other: of one image, with random numbers of their own.
@@ -153,7 +161,11 @@ pub fn rank(
     let baseline = contenders.get(question.baseline);
     let baseline = baseline.and_then(|b| Some((efficiency(b, question.region)?, b.snapshot.target.as_str())));
     let views = contenders.iter().zip(opponents).enumerate();
-    views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline)).collect()
+    // Against a biased view errors can be measured, but no verdict be given.
+    let promoted = question.reference_view.and_then(|v| contenders.get(v));
+    let judged = promoted.is_none_or(|view| view.unfit_as_reference().is_none());
+    let standings = views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline));
+    standings.map(|s| Standing { agreement: s.agreement.filter(|_| judged), ..s }).collect()
 }
 
 /// The region of a question in a picture.
@@ -297,7 +309,7 @@ pub(super) fn opponent<'a>(
     let others: Vec<&Contender<'_>> = contenders
         .iter()
         .enumerate()
-        .filter(|(j, other)| *j != index && other.declared_bias().is_none() && view.is_comparable(other))
+        .filter(|(j, other)| *j != index && other.unfit_as_reference().is_none() && view.is_comparable(other))
         .map(|(_, other)| other)
         .filter(|other| Estimate::of(other.snapshot).is_some())
         .collect();

@@ -168,3 +168,44 @@ fn views_are_held_only_against_what_shows_the_same_image_with_other_numbers() {
     let with = Question { reference: Some(&promoted), reference_view: Some(0), ..question() };
     assert!(nothing(&[(doc(0), a), (doc(1), b)], &with).contains("the reference"));
 }
+
+/// The pool leaves out what is biased, has a variance without bound, or has lost samples.
+#[test]
+fn only_sound_pictures_are_pooled() {
+    let against = |edit: fn(&mut SceneDoc, &mut Snapshot)| {
+        let mut views =
+            vec![(doc(1), picture(1, 1, 0.0)), (doc(2), picture(2, 1, 0.0)), (doc(3), picture(3, 1, 0.0))];
+        let (doc, snapshot) = &mut views[1];
+        edit(doc, snapshot);
+        ranked(&views, &question())[0].against.clone()
+    };
+    assert_eq!(against(|_, _| ()), Against::Others("B, C".into()));
+    assert_eq!(against(|_, s| s.tally.non_finite = 1), Against::Others("C".into()));
+    assert_eq!(
+        against(|d, _| {
+            d.estimator.id = "mitsuba2-volpath".into();
+            d.medium.extinction = crate::spectrum::SpectrumDoc::Rgb([1.0, 2.0, 3.0]);
+        }),
+        Against::Others("C".into())
+    );
+}
+
+/// A promoted view that is biased measures errors, and gives no verdict.
+#[test]
+fn a_biased_view_judges_nobody() {
+    let views = |when_exceeded| {
+        let mut biased = doc(2);
+        biased.medium.majorant.factor = 0.5;
+        biased.medium.majorant.when_exceeded = when_exceeded;
+        vec![(doc(1), picture(1, 1, 0.0)), (biased, picture(2, 1, 0.3))]
+    };
+    let verdict = |when_exceeded| {
+        let views = views(when_exceeded);
+        let reference = Reference::of(&Arc::new(views[1].1.clone()), "view B");
+        let question = Question { reference: Some(&reference), reference_view: Some(1), ..question() };
+        let standing = ranked(&views, &question).swap_remove(0);
+        (standing.verdict(), standing.errors.len())
+    };
+    assert_eq!(verdict(WhenExceeded::Weighted), (Verdict::Differs, 1));
+    assert_eq!(verdict(WhenExceeded::Clamp), (Verdict::Undecided, 1));
+}

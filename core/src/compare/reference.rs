@@ -1,8 +1,10 @@
 //! What errors are measured against.
 
 use super::estimate::Estimate;
+use super::fitness::{LOST, unfit_document};
 use crate::film::{Noise, Snapshot};
 use crate::io::picture::{self, PictureError};
+use crate::io::scene_file;
 use crate::measure::{Picture, Region};
 use rayon::prelude::*;
 use std::path::Path;
@@ -25,6 +27,9 @@ pub struct Reference {
     pub seed: Option<u64>,
     /// What reading its file changed or left out.
     pub notices: Vec<String>,
+    /// Why it is no reference, if a file says so: it was rendered with a setting that biases, its variance has no bound,
+    /// or samples were left out of it.
+    pub unfit: Option<&'static str>,
 }
 
 /// Whose pixels they are: a view's are shared, not copied.
@@ -46,6 +51,7 @@ impl Reference {
             origin: origin.into(),
             seed: None,
             notices: Vec::new(),
+            unfit: None,
         }
     }
 
@@ -64,7 +70,7 @@ impl Reference {
         origin: String,
     ) -> Self {
         let picture = Source::Own { mean, standard_error: Some(standard_error), noise: None };
-        Self { width, height, picture, target: None, origin, seed: None, notices: Vec::new() }
+        Self { width, height, picture, target: None, origin, seed: None, notices: Vec::new(), unfit: None }
     }
 
     /// The view's picture that it is, if it is one.
@@ -125,6 +131,7 @@ impl Reference {
             origin: name.into_owned(),
             seed: metadata.as_ref().and_then(|m| m["seed"].as_u64()),
             notices: read.notices,
+            unfit: metadata.as_ref().and_then(unfit),
         })
     }
 
@@ -182,6 +189,7 @@ impl Reference {
             origin: origin.into(),
             seed: None,
             notices: Vec::new(),
+            unfit: None,
         })
     }
 
@@ -200,6 +208,13 @@ impl Reference {
     pub fn fits(&self, target: &str) -> bool {
         self.target.as_deref() == Some(target)
     }
+}
+
+/// What the metadata of a file tells against it. A scene that this version does not read tells nothing.
+fn unfit(metadata: &serde_json::Value) -> Option<&'static str> {
+    let lost = metadata["non_finite"].as_u64().is_some_and(|n| n > 0).then_some(LOST);
+    let doc = metadata["scene"].as_str().and_then(|text| scene_file::parse(text, "the reference").ok());
+    doc.as_ref().and_then(unfit_document).or(lost)
 }
 
 #[cfg(test)]

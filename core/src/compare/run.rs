@@ -8,6 +8,7 @@
 
 use super::curve::Checkpoints;
 use super::experiment::{Experiment, View, label};
+use super::fitness::{unfit_document, unfit_picture};
 use super::open::{ReferenceError, open};
 use super::reference::Reference;
 use crate::estimator;
@@ -36,6 +37,14 @@ pub enum RunError {
     /// The rendered reference has no limit.
     #[error("the reference would never end: give `compare.reference` a limit, `spp` or `relative_error`")]
     EndlessReference,
+    /// The rendered reference would be wrong, or its noise could not be told.
+    #[error("the reference by {estimator} cannot be one: {reason}. Choose another estimator for it")]
+    UnfitReference {
+        /// The estimator's id.
+        estimator: String,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// A view could not be rendered.
     #[error("view {label} ({estimator}): {message}")]
     Failed {
@@ -122,6 +131,12 @@ pub fn run(
     }
     if let ReferenceDoc::View { view } = doc.compare.reference {
         let promoted = views.get(view).map(|(_, v)| v);
+        if let Some((v, why)) = promoted.and_then(|v| Some((v, unfit_picture(&v.doc, &v.snapshot)?))) {
+            notes.push(format!(
+                "view {} is the reference, but {why}: nothing is said about the bias of others",
+                v.label
+            ));
+        }
         reference = promoted.map(|v| Reference::of(&v.snapshot, format!("view {}", v.label)));
     }
     let experiment = Experiment { doc: Arc::new(doc.clone()), views, reference: reference.map(Arc::new) };
@@ -133,6 +148,9 @@ fn background(doc: &SceneDoc) -> Result<Option<Arc<SceneDoc>>, RunError> {
     let Some(reference) = reference_doc(doc) else { return Ok(None) };
     if reference.render.limits().are_none() {
         return Err(RunError::EndlessReference);
+    }
+    if let Some(reason) = unfit_document(&reference) {
+        return Err(RunError::UnfitReference { estimator: reference.estimator.id, reason });
     }
     Ok(Some(Arc::new(reference)))
 }
@@ -346,6 +364,15 @@ mod tests {
                 ReferenceDoc::Render { estimator: "nee".into(), spp: None, relative_error: None };
         });
         assert!(endless.contains("compare.reference"), "{endless}");
+        let glowing = refused(|d| {
+            d.medium.emission = Some(crate::scene::EmissionDoc::default());
+            d.compare.reference = ReferenceDoc::Render {
+                estimator: "mitsuba2-volpath".into(),
+                spp: Some(8),
+                relative_error: None,
+            };
+        });
+        assert!(glowing.contains("mitsuba2-volpath") && glowing.contains("light from within"), "{glowing}");
         let file = "no-such-volume.vdb";
         let unread = refused(|d| {
             d.medium.density = crate::scene::DensityDoc::Grid(crate::scene::GridRef {

@@ -52,7 +52,7 @@ impl Strip {
     pub fn reference_doc(&self, scene: &SceneDoc, options: &Options) -> Result<SceneDoc, FiguresError> {
         /// Far from those of panels and of the study.
         const SEED: u64 = 0x5eed_0000;
-        let mut doc = with(scene, &self.reference, &["estimator.absorption=weighted"])?;
+        let mut doc = with(scene, &self.reference, &["estimator.absorption=weighted"])?.unbiased();
         doc.render.seed = SEED;
         doc.render.set_limits(Limits::samples(options.reference_spp));
         Ok(doc)

@@ -95,9 +95,19 @@ impl Library {
         if let Some(known) = self.digests.get(&key) {
             return known.clone();
         }
-        let digest = std::fs::read(&key.path).map_or_else(|_| file.to_owned(), |b| fingerprint::of_bytes(&b));
+        // What is longer than any file that is read goes by its name, length and time.
+        let long = std::fs::metadata(&key.path).ok().filter(|m| m.len() > self.limits.max_file_bytes);
+        let digest = match long {
+            Some(metadata) => format!("{file} {} {:?}", metadata.len(), key.modified),
+            None => fingerprint::of_file(&key.path).unwrap_or_else(|_| file.to_owned()),
+        };
         self.digests.insert(key, digest.clone());
         digest
+    }
+
+    /// Takes over what a copy has learned about the content of files.
+    pub(crate) fn learn(&mut self, copy: Self) {
+        self.digests.extend(copy.digests);
     }
 
     /// Reads a volume and makes a grid of it, saying how far it is.

@@ -4,6 +4,7 @@ mod build;
 mod camera;
 pub mod doc;
 mod frozen;
+pub mod keys;
 mod placement;
 mod validate;
 

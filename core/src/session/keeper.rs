@@ -36,7 +36,11 @@ impl Keeper {
         if let Some(known) = self.frozen.iter().find(|f| f.doc == key && f.stamps == stamps) {
             return Ok(Arc::clone(&known.scene));
         }
-        let scene = Arc::new(build(doc, &mut self.resources).map_err(|e| e.to_string())?);
+        // Files are read to name the image while they are read to freeze it: hashing costs no time of its own.
+        let mut copy = self.resources.clone();
+        let (built, ()) = rayon::join(|| build(doc, &mut self.resources), || _ = copy.fingerprint(doc));
+        self.resources.learn(copy);
+        let scene = Arc::new(built.map_err(|e| e.to_string())?);
         // Those that no view renders any more go first.
         if self.frozen.len() >= KEPT {
             self.frozen.retain(|f| Arc::strong_count(&f.scene) > 1);

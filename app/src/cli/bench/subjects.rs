@@ -3,7 +3,7 @@
 use super::Arguments;
 use crate::cli::{Failure, options, source};
 use majorant_core::bench::{Entrant, ReferencePlan, Subject};
-use majorant_core::compare::Reference;
+use majorant_core::compare;
 use majorant_core::estimator::{self, Entry};
 use majorant_core::io::{embedded, scene_file};
 use std::path::Path;
@@ -32,8 +32,12 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
     let beside = beside.filter(|file| arguments.reference_seconds.is_none() && file.exists());
     let reference = match arguments.reference.as_ref().or(beside.as_ref()) {
         Some(file) => {
-            let reference = Reference::read(file)?;
+            // Relative to where the command runs, not to the scene.
+            let file = std::path::absolute(file)?.to_string_lossy().into_owned();
+            let (mut library, mut notes) = (source.resources.clone(), Vec::new());
+            let reference = compare::open(&file, &doc, &mut library, &mut notes)?;
             options::print_notes(&reference.notices);
+            options::print_notes(&notes);
             ReferencePlan::Given(Box::new(reference))
         }
         None => ReferencePlan::Own {

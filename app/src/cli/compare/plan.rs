@@ -26,7 +26,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
     );
     let mut doc = scene_file::override_keys(scene, &assignments)?;
     let limits = Limits { spp: arguments.spp, cpu_seconds: arguments.seconds, ..Limits::default() };
-    doc.render.set_limits(limits);
+    options::replace_limits(&mut doc.render, limits);
     if arguments.seed.is_none() {
         keep_off(&mut doc, arguments.reference.as_deref().and_then(compare::seed_of));
     }

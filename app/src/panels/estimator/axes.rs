@@ -1,6 +1,6 @@
 //! The axes of an estimate: choices that any estimator combines with, but for those it has no use for.
 
-use crate::widgets::{hint, optional, row, segmented};
+use crate::widgets::{hint, key, optional_key, row_of, segmented};
 use egui::{RichText, Ui};
 use majorant_core::estimator::{self, Axis};
 use majorant_core::math::SamplerKind;
@@ -35,7 +35,7 @@ fn open_ui(ui: &mut Ui, doc: &mut EstimatorDoc, axis: Axis, choice: impl FnOnce(
 }
 
 fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Components", "What a path carries", |ui, _| {
+    row_of(ui, key("estimator.mode"), |ui, _| {
         let options = [
             (Mode::Spectral, "Spectral", "Wavelengths from 360 to 830 nm, seen by the CIE 1931 observer"),
             (Mode::Rgb, "RGB", "Three fixed components: red, green, blue"),
@@ -43,27 +43,22 @@ fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         segmented(ui, "Components", &mut doc.mode, &options);
     });
     if doc.mode == Mode::Spectral {
-        row(
-            ui,
-            "Wavelengths",
-            "How the hero's wavelength is drawn; the others are rotations of it",
-            |ui, _| {
-                let options = [
-                    (
-                        WavelengthSampling::Sensor,
-                        "By sensor",
-                        "Often where the sensor responds: less colour noise",
-                    ),
-                    (WavelengthSampling::Uniform, "Uniform", "Evenly from 360 to 830 nm, as in the report"),
-                ];
-                segmented(ui, "Wavelengths", &mut doc.wavelengths, &options);
-            },
-        );
+        row_of(ui, key("estimator.wavelengths"), |ui, _| {
+            let options = [
+                (
+                    WavelengthSampling::Sensor,
+                    "By sensor",
+                    "Often where the sensor responds: less colour noise",
+                ),
+                (WavelengthSampling::Uniform, "Uniform", "Evenly from 360 to 830 nm, as in the report"),
+            ];
+            segmented(ui, "Wavelengths", &mut doc.wavelengths, &options);
+        });
     }
 }
 
 fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Absorption", "What happens at a collision that may absorb", |ui, _| {
+    row_of(ui, key("estimator.absorption"), |ui, _| {
         let options = [
             (Absorption::Weighted, "Weighted", "Never drawn; scattering carries the albedo as a weight"),
             (Absorption::Analogue, "Analogue", "An event that ends the path, as in Miller et al. 2019"),
@@ -84,7 +79,7 @@ fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 }
 
 fn distances_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Distances", "How the distance to the next event is drawn", |ui, _| {
+    row_of(ui, key("estimator.distances"), |ui, _| {
         let options = [
             (DistanceSampling::Delta, "Delta", "Real with P = σt / μ: the fewest weights"),
             (
@@ -103,7 +98,7 @@ fn distances_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 }
 
 fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Lights", "Which light a connection goes to", |ui, _| {
+    row_of(ui, key("estimator.lights"), |ui, _| {
         let options = [
             (LightSelection::Uniform, "Uniform", "Any, with the same probability"),
             (LightSelection::Power, "Power", "In proportion to what each emits"),
@@ -111,7 +106,7 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         ];
         segmented(ui, "Lights", &mut doc.lights, &options);
     });
-    row(ui, "Aim", "Where on a light a connection goes", |ui, _| {
+    row_of(ui, key("estimator.light_sampling"), |ui, _| {
         let options = [
             (LightSampling::Emitter, "Light", "Anywhere, evenly: as in the papers"),
             (
@@ -125,7 +120,7 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 }
 
 fn light_walk_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Light walk", "Which walk meets the light that unidirectional sampling adds", |ui, _| {
+    row_of(ui, key("estimator.light_walk"), |ui, _| {
         let options = [
             (LightWalk::Fused, "Fused", "The one that goes on to the next vertex"),
             (LightWalk::Separate, "Separate", "One of its own along the same ray, as the report prints it"),
@@ -137,7 +132,7 @@ fn light_walk_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 /// How connections estimate transmittance, from the registry.
 fn transmittance_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     let chosen = TransmittanceKind::find(&doc.transmittance).map(|kind| kind.entry());
-    row(ui, "Transmittance", "How connections estimate transmittance on their way to a light", |ui, _| {
+    row_of(ui, key("estimator.transmittance"), |ui, _| {
         let text = chosen.map_or(doc.transmittance.as_str(), |entry| entry.name).to_owned();
         let combo = egui::ComboBox::from_id_salt("transmittance").width(ui.available_width()).truncate();
         let combo = combo.selected_text(text).show_ui(ui, |ui| {
@@ -165,22 +160,20 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     const MAXIMUM: (Heuristic, &str, &str) = (Heuristic::Maximum, "Max", "All to the largest density");
     egui::CollapsingHeader::new(RichText::new("Combination").small()).show_unindented(ui, |ui| {
         open_ui(ui, doc, Axis::Components, |ui, doc| {
-            let tip = "How the components that could have been the hero share a path";
-            row(ui, "Heroes", tip, |ui, _| {
+            row_of(ui, key("estimator.heuristics.components"), |ui, _| {
                 let none = (Heuristic::HeroOnly, "None", "Only the hero is used: colour noise returns");
                 let options = [BALANCE, POWER, MAXIMUM, none];
                 segmented(ui, "Heroes", &mut doc.heuristics.components, &options);
             });
         });
         open_ui(ui, doc, Axis::Techniques, |ui, doc| {
-            let tip = "How unidirectional sampling and next-event estimation share a path";
-            row(ui, "Techniques", tip, |ui, _| {
+            row_of(ui, key("estimator.heuristics.techniques"), |ui, _| {
                 segmented(ui, "Techniques", &mut doc.heuristics.techniques, &[BALANCE, POWER, MAXIMUM]);
             });
         });
         open_ui(ui, doc, Axis::Bookkeeping, books_ui);
         open_ui(ui, doc, Axis::Tracking, |ui, doc| {
-            row(ui, "Tracking", "What spectral tracking draws events by", |ui, _| {
+            row_of(ui, key("estimator.tracking"), |ui, _| {
                 let options = [
                     (Tracking::Maximum, "Max", "The largest coefficient over components"),
                     (Tracking::Average, "Average", "Their average"),
@@ -194,7 +187,7 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 
 /// How random decisions are spread, and where directions come from: the same mean, another variance.
 fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Samples", "How the samples of a pixel relate to each other", |ui, _| {
+    row_of(ui, key("estimator.sampler"), |ui, _| {
         let options = [
             (SamplerKind::Independent, "Random", "Not at all: error bars are exact"),
             (
@@ -206,7 +199,7 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         ];
         segmented(ui, "Samples", &mut doc.sampler, &options);
     });
-    row(ui, "Directions", "What directions in the medium are drawn from", |ui, _| {
+    row_of(ui, key("estimator.directions"), |ui, _| {
         let options = [
             (DirectionSampling::Phase, "Phase", "The phase function, as in the papers"),
             (
@@ -228,7 +221,7 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 }
 
 fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
-    row(ui, "Books", "How a path's contribution f and densities p are kept", |ui, _| {
+    row_of(ui, key("estimator.bookkeeping"), |ui, _| {
         let options = [
             (Bookkeeping::Rescaled, "p/P", "Quotients by the density that made the path: no overflow"),
             (
@@ -252,19 +245,11 @@ fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 
 fn path_length_ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     egui::CollapsingHeader::new(RichText::new("Path length").small()).show_unindented(ui, |ui| {
-        let depth = "Most segments of a path: 1 is emission only, 2 is single scattering";
-        optional(ui, "Max depth", (&mut doc.max_depth, opened.max_depth), 8, "unlimited", depth, |v| {
-            v.range(1.0..=10_000.0)
+        let depth = (&mut doc.max_depth, opened.max_depth);
+        optional_key(ui, key("estimator.max_depth"), depth, 8, "unlimited", |v| v.within(1.0..=10_000.0));
+        let roulette = (&mut doc.roulette_depth, opened.roulette_depth);
+        optional_key(ui, key("estimator.roulette_depth"), roulette, 16, "never", |v| {
+            v.within(0.0..=10_000.0)
         });
-        let roulette = "Ends faint paths at random after this many scatterings; unbiased";
-        optional(
-            ui,
-            "Roulette from",
-            (&mut doc.roulette_depth, opened.roulette_depth),
-            16,
-            "never",
-            roulette,
-            |v| v.range(0.0..=10_000.0),
-        );
     });
 }

@@ -29,7 +29,7 @@ pub(super) fn grip_ui(
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let name = format!("{} point {}", field.name, index + 1);
     response.widget_info(|| WidgetInfo::slider(true, f64::from(point.value), &name));
-    let max = field.max.unwrap_or(f32::MAX);
+    let range = field.values();
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
@@ -38,7 +38,7 @@ pub(super) fn grip_ui(
     {
         let to = at(p);
         let to = ControlPoint { value: to.value.min(axes.top), ..to };
-        model::shift(points, index, to, max);
+        model::shift(points, index, to, range);
     }
     let delete = response.has_focus()
         && ui.input_mut(|i| {
@@ -48,7 +48,7 @@ pub(super) fn grip_ui(
     if response.secondary_clicked() || delete {
         model::remove(points, index);
     } else if response.has_focus() {
-        nudge(ui, &response, axes, points, index, max);
+        nudge(ui, &response, axes, points, index, range);
     }
     paint_grip(ui, &response, centre);
     let text = format!("{} nm: {}", format_number(point.lambda_nm.into()), format_number(point.value.into()));
@@ -62,7 +62,14 @@ pub(super) fn grip_ui(
 }
 
 /// Arrow keys move a focused point; Shift makes it ten times finer.
-fn nudge(ui: &Ui, response: &Response, axes: &Axes, points: &mut [ControlPoint], index: usize, max: f32) {
+fn nudge(
+    ui: &Ui,
+    response: &Response,
+    axes: &Axes,
+    points: &mut [ControlPoint],
+    index: usize,
+    range: [f32; 2],
+) {
     let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
     ui.memory_mut(|m| m.set_focus_lock_filter(response.id, filter));
     let (step, pressed) = ui.input(|i| {
@@ -77,7 +84,7 @@ fn nudge(ui: &Ui, response: &Response, axes: &Axes, points: &mut [ControlPoint],
             lambda_nm: point.lambda_nm + pressed.x * step,
             value: point.value + pressed.y * step * axes.top / 100.0,
         };
-        model::shift(points, index, to, max);
+        model::shift(points, index, to, range);
     }
 }
 

@@ -21,6 +21,7 @@ use super::value::Value;
 use egui::containers::menu::MenuButton;
 use egui::{Button, Ui, vec2};
 use majorant_core::scene::MajorantDoc;
+use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc, presets};
 use model::Kind;
 
@@ -28,12 +29,8 @@ use model::Kind;
 pub struct SpectrumField<'a> {
     /// Its name, which starts the names of all its widgets.
     pub name: &'a str,
-    /// Unit of its values.
-    pub unit: &'a str,
-    /// Greatest value, if there is one.
-    pub max: Option<f32>,
-    /// What it means.
-    pub tip: &'a str,
+    /// Its key: which values make sense, and what they mean.
+    pub key: &'static Key,
     /// The spectrum when the scene was opened or saved.
     pub opened: &'a SpectrumDoc,
     /// What it is a spectrum of; decides how RGB becomes one.
@@ -43,9 +40,19 @@ pub struct SpectrumField<'a> {
 }
 
 impl SpectrumField<'_> {
+    /// The least and the greatest value that the key allows.
+    fn values(&self) -> [f32; 2] {
+        self.key.range().map_or([0.0, f32::MAX], |range| [range.min as f32, range.max as f32])
+    }
+
+    /// Greatest value if it is of the order of those that are edited, as of a share.
+    fn max(&self) -> Option<f32> {
+        Some(self.values()[1]).filter(|most| *most <= 1.0)
+    }
+
     /// What presets have to suit.
     fn use_(&self) -> presets::Use {
-        match (self.quantity, self.max) {
+        match (self.quantity, self.max()) {
             (Quantity::Radiance, _) => presets::Use::Light,
             (Quantity::Coefficient, Some(_)) => presets::Use::Albedo,
             (Quantity::Coefficient, None) => presets::Use::Extinction,
@@ -113,19 +120,16 @@ fn constant_ui(ui: &mut Ui, field: &SpectrumField<'_>, value: &mut f32) {
         SpectrumDoc::Constant(opened) => *opened,
         _ => *value,
     };
-    let default = field.max.unwrap_or(1.0);
-    let number = Value::new("Value", value, default).opened(opened).unit(field.unit).tip(field.tip);
-    let number = match field.max {
-        Some(max) => number.range(0.0..=f64::from(max)).speed(0.004),
-        None => number.range(0.0..=f64::from(f32::MAX)).logarithmic(),
-    };
+    let default = field.max().unwrap_or(1.0);
+    let number = Value::of(field.key, value).labelled("Value").defaulting_to(default).opened(opened);
+    let number = if field.max().is_some() { number.speed(0.004) } else { number.logarithmic() };
     number.named(format!("{} value", field.name)).show(ui);
 }
 
 fn rgb_ui(ui: &mut Ui, field: &SpectrumField<'_>, rgb: &mut [f32; 3]) {
     // A colour button cannot show, and would clip, what is brighter than white.
     if rgb.iter().all(|x| *x <= 1.0) {
-        row(ui, "Colour", field.tip, |ui, _| {
+        row(ui, "Colour", field.key.tip, |ui, _| {
             // The picker rounds through HSV: only what it really changed may reach the document.
             let mut picked = *rgb;
             let button = ui.color_edit_button_rgb(&mut picked);
@@ -138,8 +142,7 @@ fn rgb_ui(ui: &mut Ui, field: &SpectrumField<'_>, rgb: &mut [f32; 3]) {
     }
     for (channel, value) in ["Red", "Green", "Blue"].iter().zip(rgb) {
         let opened = *value;
-        let max = f64::from(field.max.unwrap_or(f32::MAX));
-        let number = Value::new(channel, value, 1.0).opened(opened).range(0.0..=max).tip(field.tip);
+        let number = Value::of(field.key, value).labelled(channel).defaulting_to(1.0).opened(opened);
         number.named(format!("{} {}", field.name, channel.to_lowercase())).show(ui);
     }
 }

@@ -84,9 +84,8 @@ pub fn add(points: &mut Vec<ControlPoint>, at: ControlPoint) -> Option<usize> {
     Some(index)
 }
 
-/// Moves a point; it stays between its neighbours and in the range, and its value stays above zero
-/// and below `max`.
-pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, max: f32) {
+/// Moves a point; it stays between its neighbours and in the visible range, and its value between the two given.
+pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, [least, most]: [f32; 2]) {
     let low =
         index.checked_sub(1).and_then(|i| points.get(i)).map_or(LAMBDA_MIN_NM, |p| p.lambda_nm + GAP_NM);
     let high = points.get(index + 1).map_or(LAMBDA_MAX_NM, |p| p.lambda_nm - GAP_NM);
@@ -94,7 +93,7 @@ pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, max: f
         if low <= high {
             point.lambda_nm = to.lambda_nm.clamp(low, high);
         }
-        point.value = to.value.clamp(0.0, max);
+        point.value = to.value.clamp(least, most);
     }
 }
 
@@ -128,13 +127,13 @@ mod tests {
     #[test]
     fn points_stay_in_order_and_in_range() {
         let mut points = vec![point(430.0, 8.0), point(540.0, 40.0), point(572.0, 8.0)];
-        shift(&mut points, 1, point(900.0, -3.0), f32::MAX);
+        shift(&mut points, 1, point(900.0, -3.0), [0.0, f32::MAX]);
         assert_eq!(points[1], point(571.0, 0.0));
-        shift(&mut points, 2, point(2000.0, 5.0), 1.0);
+        shift(&mut points, 2, point(2000.0, 5.0), [0.0, 1.0]);
         assert_eq!(points[2], point(LAMBDA_MAX_NM, 1.0));
-        shift(&mut points, 0, point(0.0, 2.0), f32::MAX);
+        shift(&mut points, 0, point(0.0, 2.0), [0.0, f32::MAX]);
         assert_eq!(points[0].lambda_nm, LAMBDA_MIN_NM);
-        shift(&mut points, 9, point(500.0, 2.0), f32::MAX);
+        shift(&mut points, 9, point(500.0, 2.0), [0.0, f32::MAX]);
         assert_eq!(points.len(), 3);
     }
 

@@ -28,8 +28,8 @@ pub(super) fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectrum
     }
 
     let at = |p: Pos2| {
-        let (lambda, value) = axes.value(p);
-        ControlPoint { lambda_nm: lambda.round(), value: tidy(value.max(0.0), axes.top) }
+        let ((lambda, value), [least, most]) = (axes.value(p), field.values());
+        ControlPoint { lambda_nm: lambda.round(), value: tidy(value, axes.top).clamp(least, most) }
     };
     let mut edit: Option<(Vec<ControlPoint>, Outside)> = None;
     // A click just before makes it a triple click.
@@ -67,7 +67,7 @@ fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc, spect
     if let Some(held) = ui.data(|d| d.get_temp::<f32>(id)) {
         return held;
     }
-    if let Some(max) = field.max {
+    if let Some(max) = field.max() {
         return max;
     }
     let mut largest = 0.0_f32;

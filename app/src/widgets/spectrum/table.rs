@@ -29,7 +29,7 @@ pub(super) fn points_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectr
             ui.horizontal(|ui| {
                 let half = (ui.available_width() - 40.0) * 0.5;
                 number(ui, half, &mut point.lambda_nm, "nm", 0.5, &format!("{name} wavelength"));
-                number(ui, half, &mut point.value, field.unit, 0.01, &format!("{name} value"));
+                number(ui, half, &mut point.value, field.key.unit, 0.01, &format!("{name} value"));
                 let button = ui.add_enabled(count > 1, Button::new("×").small());
                 if button
                     .on_hover_text("Remove this point")
@@ -40,7 +40,7 @@ pub(super) fn points_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectr
                 }
             });
             if point != before {
-                model::shift(points, index, point, field.max.unwrap_or(f32::MAX));
+                model::shift(points, index, point, field.values());
             }
         }
         if let Some(index) = removed {
@@ -69,8 +69,13 @@ fn points_text_ui(ui: &mut Ui, field: &SpectrumField<'_>, points: &mut Vec<Contr
         buffered_text(ui, id, &format!("{} points as text", field.name), "430:8, 540:40", &mut text, 1);
     if response.changed() {
         ui.data_mut(|d| d.remove::<String>(problem));
+        let [least, most] = field.values();
         match SpectrumDoc::parse_points(&text) {
-            Ok(parsed) => *points = parsed,
+            Ok(parsed) if parsed.iter().all(|p| (least..=most).contains(&p.value)) => *points = parsed,
+            Ok(_) => {
+                let message = format!("values from {least} to {most} make sense here");
+                ui.data_mut(|d| d.insert_temp(problem, message));
+            }
             Err(message) => {
                 ui.data_mut(|d| d.insert_temp(problem, message));
             }

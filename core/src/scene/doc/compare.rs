@@ -2,7 +2,6 @@
 //! against, and what of them is shown.
 
 use super::{CameraDoc, EstimatorDoc, MajorantDoc, SceneDoc, ViewDoc};
-use crate::medium::Interpolation;
 use serde::{Deserialize, Serialize};
 
 /// The most views of a scene.
@@ -106,7 +105,7 @@ pub enum Fairness {
 
 /// What errors are measured against.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(tag = "kind", rename_all = "kebab-case", from = "Written")]
 pub enum ReferenceDoc {
     /// Nothing: variances and z-values need no reference.
     #[default]
@@ -123,10 +122,10 @@ pub enum ReferenceDoc {
         /// By which estimator.
         estimator: String,
         /// Samples per pixel.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         spp: Option<u64>,
         /// Until the standard error is this share of the mean.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(skip_serializing_if = "Option::is_none")]
         relative_error: Option<f32>,
     },
     /// An EXR picture.
@@ -134,6 +133,41 @@ pub enum ReferenceDoc {
         /// Its name, relative to the scene's file.
         file: String,
     },
+}
+
+/// A reference as it is written. Variants without parameters have braces: unknown keys are refused in them, too.
+#[derive(Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+enum Written {
+    None {},
+    Pooled {},
+    View {
+        view: usize,
+    },
+    Render {
+        estimator: String,
+        #[serde(default)]
+        spp: Option<u32>,
+        #[serde(default)]
+        relative_error: Option<f32>,
+    },
+    File {
+        file: String,
+    },
+}
+
+impl From<Written> for ReferenceDoc {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::None {} => Self::None,
+            Written::Pooled {} => Self::Pooled,
+            Written::View { view } => Self::View { view },
+            Written::Render { estimator, spp, relative_error } => {
+                Self::Render { estimator, spp, relative_error }
+            }
+            Written::File { file } => Self::File { file },
+        }
+    }
 }
 
 /// How the views share the window.
@@ -244,28 +278,14 @@ impl SceneDoc {
         let ReferenceDoc::Render { estimator, spp, relative_error } = &self.compare.reference else {
             return None;
         };
-        let mut doc = self.view_doc(0)?;
+        let mut doc = self.view_doc(0)?.unbiased();
         doc.estimator.id.clone_from(estimator);
         doc.estimator.absorption = super::Absorption::Weighted;
-        // A reference that is cut off, or wrong, would measure nothing.
-        doc.estimator.fault = super::Fault::None;
         doc.medium.majorant = MajorantDoc::default();
         doc.render.seed = REFERENCE_SEED;
         (doc.render.spp, doc.render.relative_error) = (*spp, *relative_error);
         (doc.render.seconds, doc.render.cpu_seconds) = (None, None);
         Some(doc)
-    }
-
-    /// The part that the *expected* image depends on, everything else at its default: documents that agree
-    /// in it converge to the same image under every unbiased estimator.
-    #[must_use]
-    pub fn target_part(&self) -> Self {
-        let mut doc = self.scene_part();
-        doc.medium.majorant = MajorantDoc::default();
-        doc.medium.interpolation = Interpolation::default();
-        doc.estimator.mode = self.estimator.mode;
-        doc.estimator.max_depth = self.estimator.max_depth;
-        doc
     }
 }
 
@@ -343,5 +363,12 @@ mod tests {
         let made = reference.reference_doc().unwrap();
         assert!(made.render.seed > 1000 && made.render.spp == Some(8) && made.estimator.id == "nee");
         assert_eq!(doc.reference_doc(), None);
+        // What biases view A does not bias the reference.
+        reference.estimator.transmittance = "marching".into();
+        reference.estimator.bookkeeping = crate::scene::Bookkeeping::ApartF32;
+        reference.estimator.fault = crate::scene::Fault::NullCap;
+        reference.medium.majorant.factor = 0.5;
+        reference.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+        assert_eq!(reference.reference_doc(), Some(made));
     }
 }

@@ -130,33 +130,4 @@ impl SceneDoc {
         files.retain(|file| !file.is_empty());
         files
     }
-
-    /// The part that the frozen scene depends on, everything else at its default: two documents that
-    /// agree in it share one frozen scene.
-    #[must_use]
-    pub fn scene_part(&self) -> Self {
-        Self {
-            camera: self.camera.clone(),
-            film: self.film.clone(),
-            medium: self.medium.clone(),
-            lights: self.lights.clone(),
-            objects: self.objects.clone(),
-            ..Self::default()
-        }
-    }
-
-    /// The part that the estimate depends on: two documents that agree in it give the same image after
-    /// the same number of samples. Limits, title and display are left out.
-    #[must_use]
-    pub fn render_part(&self) -> Self {
-        Self {
-            estimator: self.estimator.clone(),
-            render: RenderDoc {
-                seed: self.render.seed,
-                threads: self.render.threads,
-                ..RenderDoc::default()
-            },
-            ..self.scene_part()
-        }
-    }
 }

@@ -23,18 +23,6 @@ pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     if let ReferenceDoc::View { view } = compare.reference {
         c.check(view < count, "compare.reference.view", format!("is {view}: views count from 0"));
     }
-    if let ReferenceDoc::Render { spp, relative_error, .. } = compare.reference {
-        c.check(
-            spp.is_none_or(|spp| (1..=Limits::MOST_SAMPLES).contains(&spp)),
-            "compare.reference.spp",
-            "must lie between 1 and 2^63 − 1: leave it out for no limit",
-        );
-        c.check(
-            relative_error.is_none_or(|e| e > 0.0 && e.is_finite()),
-            "compare.reference.relative_error",
-            "must be positive: 0.01 is one percent of the mean",
-        );
-    }
     if let Some([x0, y0, x1, y1]) = compare.region {
         c.check(
             x0 < x1 && y0 < y1,

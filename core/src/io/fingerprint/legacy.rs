@@ -1,0 +1,250 @@
+//! The name that version 0.1 gave to an image: a digest of the whole document as it was written then. Pictures that were
+//! stored under it are still known by it.
+//!
+//! Frozen: the keys that counted, and the values that stood for those that did not.
+
+use super::of_bytes;
+use crate::io::scene_file;
+use crate::medium::Interpolation;
+use crate::scene::keys::{Affects, leaves};
+use crate::scene::{MajorantDoc, RenderDoc, SceneDoc};
+use toml_edit::{DocumentMut, Item, Table, Value};
+
+/// What version 0.1 wrote for keys that the expected image does not depend on.
+const FROZEN: &[(&str, &str)] = &[
+    ("title", "\"Untitled\""),
+    ("note", "\"\""),
+    ("medium.interpolation", "\"trilinear\""),
+    ("medium.majorant.factor", "1.0"),
+    ("medium.majorant.shared", "false"),
+    ("medium.majorant.when_exceeded", "\"weighted\""),
+    ("estimator.id", "\"uni-nee-mis\""),
+    ("estimator.sampler", "\"independent\""),
+    ("estimator.wavelengths", "\"sensor\""),
+    ("estimator.distances", "\"delta\""),
+    ("estimator.directions", "\"phase\""),
+    ("estimator.absorption", "\"weighted\""),
+    ("estimator.heuristics.components", "\"balance\""),
+    ("estimator.heuristics.techniques", "\"balance\""),
+    ("estimator.bookkeeping", "\"rescaled\""),
+    ("estimator.tracking", "\"history\""),
+    ("estimator.light_walk", "\"fused\""),
+    ("estimator.lights", "\"uniform\""),
+    ("estimator.light_sampling", "\"emitter\""),
+    ("estimator.transmittance", "\"ratio-hero\""),
+    ("estimator.roulette_depth", "16"),
+    ("render.spp", "1024"),
+    ("render.seed", "0"),
+    ("view.exposure_ev", "0.0"),
+    ("view.tone", "\"filmic\""),
+];
+
+/// The keys of version 0.1 that the expected image depends on.
+const COUNTED: &[&str] = &[
+    "majorant",
+    "camera.origin",
+    "camera.target",
+    "camera.up",
+    "camera.fov_deg",
+    "film.width",
+    "film.height",
+    "medium.scale",
+    "medium.extinction",
+    "medium.albedo",
+    "medium.coefficients.kind",
+    "medium.coefficients.absorption",
+    "medium.coefficients.scattering",
+    "medium.coefficients.mean_free_path",
+    "medium.coefficients.colour",
+    "medium.albedo_grid.file",
+    "medium.albedo_grid.grid",
+    "medium.density.kind",
+    "medium.density.file",
+    "medium.density.grid",
+    "medium.precision",
+    "medium.placement.fit",
+    "medium.placement.scale",
+    "medium.placement.rotate_deg",
+    "medium.placement.translate",
+    "medium.placement.matrix",
+    "medium.phase.kind",
+    "medium.phase.g",
+    "medium.phase.g_forward",
+    "medium.phase.g_backward",
+    "medium.phase.forward",
+    "medium.phase.alpha",
+    "medium.phase.diameter_um",
+    "medium.phase.angle",
+    "medium.phase.points",
+    "medium.phase.file",
+    "medium.emission.temperature.file",
+    "medium.emission.temperature.grid",
+    "medium.emission.kelvin",
+    "medium.emission.scale",
+    "lights.*.kind",
+    "lights.*.center",
+    "lights.*.target",
+    "lights.*.up",
+    "lights.*.size",
+    "lights.*.radius",
+    "lights.*.toward",
+    "lights.*.angular_diameter_deg",
+    "lights.*.radiance",
+    "lights.*.irradiance",
+    "lights.*.file",
+    "lights.*.rotate_deg",
+    "lights.*.scale",
+    "lights.*.visible",
+    "objects.*.kind",
+    "objects.*.point",
+    "objects.*.normal",
+    "objects.*.center",
+    "objects.*.size",
+    "objects.*.rotate_deg",
+    "objects.*.albedo",
+    "estimator.mode",
+    "estimator.max_depth",
+];
+
+/// The name that version 0.1 would have given; `None` if it could not have rendered the document.
+pub(super) fn of_scene(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> Option<String> {
+    let unknown = leaves(doc).ok()?.into_iter().any(|leaf| {
+        let key = leaf.key();
+        key.affects == Affects::Scene
+            && !key.path.starts_with("compare.")
+            && !COUNTED.contains(&key.path)
+            && !leaf.is_default()
+    });
+    if unknown {
+        return None;
+    }
+    let mut written: DocumentMut = text_today(doc, content).parse().ok()?;
+    thaw(written.as_table_mut(), "")?;
+    Some(of_bytes(written.to_string().as_bytes()))
+}
+
+/// What version 0.1 would have hashed, with the keys and defaults of today.
+fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> String {
+    // Sections in the order of then; what did not count has the values of then.
+    let mut part = SceneDoc {
+        camera: doc.camera.clone(),
+        film: doc.film.clone(),
+        medium: doc.medium.clone(),
+        lights: doc.lights.clone(),
+        objects: doc.objects.clone(),
+        render: RenderDoc { spp: Some(1024), ..RenderDoc::default() },
+        ..SceneDoc::default()
+    };
+    part.medium.majorant = MajorantDoc::default();
+    part.medium.interpolation = Interpolation::default();
+    part.estimator.mode = doc.estimator.mode;
+    part.estimator.max_depth = doc.estimator.max_depth;
+    for file in part.files_mut() {
+        *file = content(file);
+    }
+    scene_file::to_toml(&part)
+}
+
+/// Puts the values of then for keys that did not count, and takes out keys that there were not.
+fn thaw(table: &mut Table, pattern: &str) -> Option<()> {
+    let dot = if pattern.is_empty() { "" } else { "." };
+    let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
+    for name in names {
+        let path = format!("{pattern}{dot}{name}");
+        match table.get_mut(&name)? {
+            Item::Table(inner) if !COUNTED.contains(&path.as_str()) => {
+                thaw(inner, &path)?;
+                if inner.is_empty() {
+                    table.remove(&name);
+                }
+            }
+            Item::ArrayOfTables(entries) => {
+                for entry in entries.iter_mut() {
+                    thaw(entry, &format!("{path}.*"))?;
+                }
+            }
+            Item::Value(value) => match FROZEN.iter().find(|(frozen, _)| *frozen == path) {
+                Some((_, then)) if value.to_string().trim() != *then => {
+                    *value = then.parse::<Value>().ok()?.decorated(" ", "");
+                }
+                Some(_) => {}
+                None if COUNTED.contains(&path.as_str()) => {}
+                None => _ = table.remove(&name),
+            },
+            Item::Table(_) | Item::None => {}
+        }
+    }
+    Some(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::embedded::SCENES;
+    use crate::scene::{
+        CoefficientsDoc, CoefficientsKind, DensityDoc, EmissionDoc, GridRef, LightDoc, ObjectDoc, PhaseDoc,
+        PlacementDoc,
+    };
+    use crate::spectrum::{ControlPoint, Outside, SpectrumDoc};
+
+    fn thawed(text: &str) -> String {
+        let mut written: DocumentMut = text.parse().unwrap();
+        thaw(written.as_table_mut(), "").unwrap();
+        written.to_string()
+    }
+
+    /// Documents in which every key of version 0.1 is written.
+    fn documents() -> Vec<SceneDoc> {
+        let grid = || GridRef { file: "a.vdb".into(), grid: Some("smoke".into()) };
+        let mut full = SceneDoc {
+            lights: LightDoc::templates().into_iter().map(|(_, light)| light).collect(),
+            objects: ObjectDoc::templates().into_iter().map(|(_, object)| object).collect(),
+            ..SceneDoc::default()
+        };
+        let points = vec![ControlPoint { lambda_nm: 500.0, value: 0.5 }];
+        full.medium.extinction = SpectrumDoc::Points { points, outside: Outside::Zero };
+        full.medium.albedo = SpectrumDoc::Rgb([0.1, 0.2, 0.3]);
+        full.medium.density = DensityDoc::Grid(grid());
+        full.medium.albedo_grid = Some(grid());
+        full.medium.emission = Some(EmissionDoc { temperature: Some(grid()), kelvin: 2.0, scale: 3.0 });
+        full.medium.placement =
+            PlacementDoc { fit: Some(2.0), matrix: Some([[0.5; 4]; 3]), ..PlacementDoc::default() };
+        full.estimator.max_depth = Some(3);
+        let mut documents: Vec<SceneDoc> = PhaseDoc::templates()
+            .into_iter()
+            .map(|phase| {
+                let mut doc = full.clone();
+                doc.medium.phase = phase;
+                doc
+            })
+            .collect();
+        for kind in [CoefficientsKind::AbsorptionScattering, CoefficientsKind::MeanFreePathColour] {
+            let mut doc = full.clone();
+            doc.medium = doc.medium.given_by(kind, 0.0);
+            assert!(matches!(
+                doc.medium.coefficients,
+                Some(
+                    CoefficientsDoc::AbsorptionScattering { .. } | CoefficientsDoc::MeanFreePathColour { .. }
+                )
+            ));
+            documents.push(doc);
+        }
+        documents.extend(SCENES.iter().map(|s| scene_file::parse(s.toml, s.name).unwrap()));
+        documents
+    }
+
+    /// As long as no key was added and no default changed, nothing is put or taken out; afterwards the text is that of then.
+    #[test]
+    fn the_text_of_version_0_1_stands_as_it_was() {
+        for doc in documents() {
+            let text = text_today(&doc, str::to_owned);
+            assert_eq!(thawed(&text), text);
+            // A default that changes, and keys and tables that are new.
+            let later = text.replacen("absorption = \"weighted\"", "absorption = \"analogue\"", 1);
+            let later = later.replacen("[film]\n", "[film]\nbit_depth = 12\n", 1);
+            let later = format!("{later}\n[weather]\nwind = 3.0\n");
+            assert!(later.contains("analogue") && later.contains("bit_depth"));
+            assert_eq!(thawed(&later).trim_end(), text.trim_end());
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! When keys bias the estimate, and the unbiased values: the one way to a reference.
+
+use crate::scene::{Bookkeeping, DensityDoc, Fault, SceneDoc, WhenExceeded};
+use crate::transmittance::TransmittanceKind;
+
+/// A rule by which a key biases the estimate.
+#[derive(Debug)]
+pub struct Bias {
+    /// The rule in words.
+    pub when: &'static str,
+    /// Whether it holds for a document, under an estimator that uses the key.
+    pub holds: fn(&SceneDoc) -> bool,
+    /// Puts the key to its unbiased value.
+    pub undo: fn(&mut SceneDoc),
+}
+
+pub(super) static FACTOR: Bias = Bias {
+    when: "below 1 where `when_exceeded` is not `weighted`, and under mitsuba2-volpath wherever the medium is a grid",
+    holds: |doc| {
+        let uniform =
+            matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none();
+        doc.medium.majorant.factor < 1.0
+            && (doc.medium.majorant.when_exceeded != WhenExceeded::Weighted
+                || doc.estimator.id == "mitsuba2-volpath" && !uniform)
+    },
+    undo: |doc| doc.medium.majorant.factor = doc.medium.majorant.factor.max(1.0),
+};
+
+pub(super) static CLAMPED: Bias = Bias {
+    when: "`clamp`, and `progressive` until bounds have been raised, where `factor` is below 1",
+    holds: |doc| {
+        doc.medium.majorant.factor < 1.0 && doc.medium.majorant.when_exceeded != WhenExceeded::Weighted
+    },
+    undo: |doc| doc.medium.majorant.when_exceeded = WhenExceeded::Weighted,
+};
+
+pub(super) static ESTIMATOR: Bias = Bias {
+    when: "mitsuba2-volpath where the medium glows",
+    holds: |doc| doc.estimator.id == "mitsuba2-volpath" && doc.medium.emission.is_some(),
+    // Which estimator a reference takes is a choice: one that is biased all the same is refused.
+    undo: |_| (),
+};
+
+pub(super) static FAULT: Bias = Bias {
+    when: "anything but `none`, under Uni+NEE MIS",
+    holds: |doc| doc.estimator.fault != Fault::None,
+    undo: |doc| doc.estimator.fault = Fault::None,
+};
+
+pub(super) static OVERFLOW: Bias = Bias {
+    when: "`apart-f32`, under Uni+NEE MIS: samples that overflow are left out",
+    holds: |doc| doc.estimator.bookkeeping == Bookkeeping::ApartF32,
+    undo: |doc| {
+        if doc.estimator.bookkeeping == Bookkeeping::ApartF32 {
+            doc.estimator.bookkeeping = Bookkeeping::Rescaled;
+        }
+    },
+};
+
+pub(super) static MARCHED: Bias = Bias {
+    when: "`marching`, under estimators whose connections may estimate it in any way",
+    holds: marches,
+    undo: |doc| {
+        if marches(doc) {
+            TransmittanceKind::ALONG_THE_PATH.entry().id.clone_into(&mut doc.estimator.transmittance);
+        }
+    },
+};
+
+fn marches(doc: &SceneDoc) -> bool {
+    TransmittanceKind::find(&doc.estimator.transmittance).is_some_and(|kind| !kind.entry().unbiased)
+}
+
+impl SceneDoc {
+    /// The document with every key that can bias its estimate at the unbiased value; what the expected image depends on
+    /// stays, and so does the estimator. References are rendered from it.
+    #[must_use]
+    pub fn unbiased(&self) -> Self {
+        let mut doc = self.clone();
+        for bias in super::all().iter().filter(|key| !key.path.contains('*')).filter_map(|key| key.biases) {
+            (bias.undo)(&mut doc);
+        }
+        doc
+    }
+}

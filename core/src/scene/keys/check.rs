@@ -1,0 +1,112 @@
+//! Values held against the ranges of their keys.
+
+use super::part::Leaf;
+use super::{DIRECTION, Range, Type, part};
+use crate::scene::{Problem, SceneDoc};
+use crate::spectrum::SpectrumDoc;
+use toml::Value;
+
+/// Every value of a document that its key does not allow, in the order of the table. Views beside the scene's own are
+/// checked by [`crate::scene::validate`], as what they render.
+pub(in crate::scene) fn check(doc: &SceneDoc) -> Vec<Problem> {
+    // A scene file holds no larger seed: that is a problem, but none of the other keys'.
+    let mut doc = doc.clone();
+    doc.compare.views.clear();
+    let mut problems = Vec::new();
+    if i64::try_from(doc.render.seed).is_err() {
+        let message = "is above 2^63 − 1, the largest number that a scene file holds".into();
+        problems.push(Problem { path: "render.seed".into(), message });
+        doc.render.seed = 0;
+    }
+    match part::leaves(&doc) {
+        Ok(leaves) => problems.extend(leaves.iter().filter_map(problem)),
+        Err(error) => problems.push(Problem { path: String::new(), message: error.to_string() }),
+    }
+    problems
+}
+
+fn problem(leaf: &Leaf) -> Option<Problem> {
+    let key = leaf.key();
+    let mut message = wrong(&leaf.value, key.value)?;
+    if !key.cure.is_empty() {
+        message = format!("{message}: {}", key.cure);
+    }
+    Some(Problem { path: leaf.path.clone(), message })
+}
+
+/// What is wrong with a value; what is of another type was refused when it was read.
+fn wrong(value: &Value, wanted: Type) -> Option<String> {
+    match wanted {
+        Type::Number(range) => {
+            let number = single(value)?;
+            (!range.holds(number)).then(|| format!("is {number}, outside {}", words(range)))
+        }
+        Type::Integer(range) | Type::IntegerOr(range, _) => {
+            let number = value.as_integer()?;
+            (!range.holds_integer(number)).then(|| format!("is {number}, outside {}", words(range)))
+        }
+        Type::Vector(_, range) | Type::Matrix(range) => {
+            let found = numbers(value).into_iter().find(|x| !range.holds(*x))?;
+            Some(format!("holds {found}, outside {}", words(range)))
+        }
+        Type::Integers(_, range) => {
+            let found = value.as_array()?.iter().filter_map(Value::as_integer);
+            let found = found.into_iter().find(|x| !range.holds_integer(*x))?;
+            Some(format!("holds {found}, outside {}", words(range)))
+        }
+        Type::Direction => {
+            let components = numbers(value);
+            let long = components.iter().any(|x| x.abs() > 1e-9);
+            let good = long && components.iter().all(|x| DIRECTION.holds(*x));
+            (!good).then(|| format!("is {:?}, which has no direction", numbers(value)))
+        }
+        Type::Spectrum(range) => spectrum(value, range),
+        Type::Choice(values) => {
+            let word = value.as_str()?;
+            (!values.contains(&word)).then(|| format!("is `{word}`: choose {}", values.join(", ")))
+        }
+        Type::Bool | Type::Pairs | Type::Id(_) | Type::File | Type::Text => None,
+    }
+}
+
+fn spectrum(value: &Value, range: Range) -> Option<String> {
+    let doc: SpectrumDoc = value.clone().try_into().ok()?;
+    if let Some(found) = doc.values().into_iter().find(|x| !range.holds(*x)) {
+        return Some(format!("holds {found}; values from {} make sense here", words(range)));
+    }
+    let points = doc.control_points().unwrap_or_default().0;
+    let far = points.iter().find(|p| !(100.0..=10_000.0).contains(&p.lambda_nm))?;
+    Some(format!(
+        "has a control point at {}; wavelengths are in nanometres, 360 to 830 is visible",
+        far.lambda_nm
+    ))
+}
+
+fn single(value: &Value) -> Option<f32> {
+    value.as_float().map(|x| x as f32).or_else(|| value.as_integer().map(|x| x as f32))
+}
+
+/// All numbers of an array, rows after rows.
+fn numbers(value: &Value) -> Vec<f32> {
+    match value {
+        Value::Array(entries) => entries.iter().flat_map(numbers).collect(),
+        other => single(other).into_iter().collect(),
+    }
+}
+
+/// A range in words.
+pub(super) fn words(range: Range) -> String {
+    let end = |x: f64| match x.abs() {
+        // Beyond what anybody counts in digits.
+        large if large >= f64::from(f32::MAX) => "any finite number".to_owned(),
+        large if large >= 1e7 => format!("{x:e}"),
+        _ => (x as f32).to_string(),
+    };
+    let [low, high] = [end(range.min), end(range.max)];
+    match range.open {
+        [false, false] => format!("{low} to {high}"),
+        [true, false] => format!("{low} (exclusive) to {high}"),
+        [false, true] => format!("{low} to {high} (exclusive)"),
+        [true, true] => format!("{low} to {high}, ends excluded"),
+    }
+}

@@ -1,0 +1,130 @@
+//! Keys of the comparison. What a view has of its own has the rows of the scene's keys again.
+
+use super::{Affects, Default, Key, POSITIVE, Range, Registry, SAMPLES, Type, named};
+use crate::scene::MAX_VIEWS;
+use Default::{Absent, Is, Required};
+
+const VIEW: Type = Type::Integer(Range::closed(0.0, (MAX_VIEWS - 1) as f64));
+const RENDERED: &[&str] = &["render"];
+
+const fn key(
+    path: &'static str,
+    value: Type,
+    default: Default,
+    label: &'static str,
+    tip: &'static str,
+) -> Key {
+    Key::new(path, value, default, label, tip).affects(Affects::View)
+}
+
+pub(super) const KEYS: &[Key] = &[
+    key(
+        "compare.fairness",
+        Type::Choice(&["time", "samples", "lookups"]),
+        Is("\"time\""),
+        "Fairness",
+        "What every view gets as much of as every other",
+    )
+    .affects(Affects::Limits),
+    key(
+        "compare.reference.kind",
+        Type::Choice(&["none", "pooled", "view", "render", "file"]),
+        Is("\"none\""),
+        "Reference",
+        "What errors are measured against",
+    ),
+    key("compare.reference.view", VIEW, Required, "View", "The view whose picture it is, from 0")
+        .kinds(&["view"]),
+    key(
+        "compare.reference.estimator",
+        Type::Id(Registry::Estimators),
+        Required,
+        "Estimator",
+        "What a reference is rendered by",
+    )
+    .kinds(RENDERED),
+    key(
+        "compare.reference.spp",
+        Type::Integer(SAMPLES),
+        Absent("no limit"),
+        "Stop at",
+        "Samples per pixel of a rendered reference",
+    )
+    .unit("spp")
+    .cure("leave it out for no limit")
+    .kinds(RENDERED),
+    key(
+        "compare.reference.relative_error",
+        Type::Number(POSITIVE),
+        Absent("no limit"),
+        "Error",
+        "A rendered reference stops when its standard error is this share of the mean",
+    )
+    .cure("0.01 is one percent of the mean")
+    .kinds(RENDERED),
+    key("compare.reference.file", Type::File, Required, "File", "An EXR picture, relative to the scene file")
+        .kinds(&["file"]),
+    key("compare.baseline", VIEW, Is("0"), "Baseline", "The view that speed-ups are relative to, from 0"),
+    key(
+        "compare.arrangement",
+        Type::Choice(&["grid", "wipe", "flip", "difference"]),
+        Is("\"grid\""),
+        "Arrangement",
+        "How the views share the window",
+    ),
+    key(
+        "compare.pair",
+        Type::Integers(2, Range::closed(0.0, u32::MAX as f64)),
+        Is("[0, 1]"),
+        "Pair",
+        "The two views of a wipe or difference",
+    ),
+    key(
+        "compare.layer",
+        Type::Text,
+        Is("\"picture\""),
+        "Layer",
+        "What is shown of every view: `picture`, or a map",
+    ),
+    key(
+        "compare.measure",
+        Type::Id(Registry::Measures),
+        Is("\"relmse\""),
+        "Measure",
+        "The measure of error of curves and tables",
+    ),
+    key(
+        "compare.region",
+        Type::Integers(4, Range::closed(0.0, u32::MAX as f64)),
+        Absent("the whole picture"),
+        "Region",
+        "The pixels that numbers are about: x0, y0, x1, y1, half open",
+    )
+    .unit("px"),
+    key("compare.own_zoom", Type::Bool, Is("false"), "Own zoom", "Whether every view has a zoom of its own"),
+];
+
+/// Where a view keeps what it has of its own, and where the scene has it.
+const OWN: [(&str, &str); 5] = [
+    ("estimator", "estimator"),
+    ("majorant", "medium.majorant"),
+    ("seed", "render.seed"),
+    ("camera", "camera"),
+    ("view", "view"),
+];
+
+/// The keys of views, from those of the scene.
+pub(super) fn of_views(scene: &[Key]) -> Vec<Key> {
+    let mut keys = Vec::new();
+    for (own, theirs) in OWN {
+        for key in scene {
+            let Some(rest) =
+                key.path.strip_prefix(theirs).filter(|rest| rest.is_empty() || rest.starts_with('.'))
+            else {
+                continue;
+            };
+            keys.push(Key { path: named(format!("compare.views.*.{own}{rest}")), ..*key });
+        }
+    }
+    keys
+}

@@ -1,0 +1,58 @@
+//! Keys of the phase function: the numbers of every kind are those of [`PhaseDoc::parameters`].
+
+use super::{Default, Key, Range, Type, named};
+use crate::phase::{Parameter, PhaseDoc};
+use Default::{Is, Required};
+
+const KINDS: &[&str] =
+    &["isotropic", "henyey-greenstein", "two-lobe", "rayleigh", "draine", "mie", "tabulated"];
+const TABULATED: &[&str] = &["tabulated"];
+
+const OTHERS: [Key; 3] = [
+    Key::new(
+        "medium.phase.angle",
+        Type::Choice(&["cosine", "degrees"]),
+        Is("\"cosine\""),
+        "Angle",
+        "What the points' first numbers are",
+    )
+    .kinds(TABULATED),
+    Key::new("medium.phase.points", Type::Pairs, Is("[]"), "Points", "Angle, rising, and value")
+        .kinds(TABULATED),
+    Key::new(
+        "medium.phase.file",
+        Type::File,
+        Is("\"\""),
+        "File",
+        "A text file that holds the points instead, relative to the scene file",
+    )
+    .kinds(TABULATED),
+];
+
+/// The row of a number of a phase function.
+#[must_use]
+pub fn key_of(phase: &PhaseDoc, parameter: &Parameter) -> Option<&'static Key> {
+    let place = PhaseDoc::templates().iter().position(|template| template.kind() == phase.kind())?;
+    super::find(&format!("medium.phase.{}", parameter.key), Some(KINDS.get(place)?))
+}
+
+pub(super) fn keys() -> Vec<Key> {
+    let kind = Key::new(
+        "medium.phase.kind",
+        Type::Choice(KINDS),
+        Is("\"isotropic\""),
+        "Phase function",
+        "Which way light scatters",
+    );
+    let mut keys = vec![kind];
+    for (template, kind) in PhaseDoc::templates().iter().zip(KINDS.chunks(1)) {
+        keys.extend(template.parameters().into_iter().map(|(parameter, _)| {
+            let path = named(format!("medium.phase.{}", parameter.key));
+            let [low, high] = parameter.range.map(f64::from);
+            let value = Type::Number(Range::closed(low, high));
+            Key::new(path, value, Required, parameter.label, parameter.about).kinds(kind).unit(parameter.unit)
+        }));
+    }
+    keys.extend(OTHERS);
+    keys
+}
