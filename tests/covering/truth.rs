@@ -12,10 +12,10 @@ const STEP: f32 = 1.0 / 128.0;
 
 /// Where the lamp stands.
 pub const LAMP: [f64; 3] = [0.9, 1.1, 0.2];
-pub const LAMP_RADIUS: f64 = 0.3;
-pub const LAMP_RADIANCE: f64 = 4.0;
+pub const LAMP_RADIUS: f64 = 0.4;
+pub const LAMP_RADIANCE: f64 = 3.0;
 pub const SKY_RADIANCE: f64 = 0.6;
-pub const ASYMMETRY: f64 = 0.4;
+pub const ASYMMETRY: f64 = 0.2;
 
 /// Quadrature is good to this: rasters one and a half times as fine differ by at most 1.5·10⁻⁴.
 pub const QUADRATURE: f64 = 3e-4;

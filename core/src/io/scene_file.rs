@@ -6,7 +6,7 @@
 use crate::estimator::validate;
 use crate::scene::{FORMAT_VERSION, SceneDoc};
 use std::path::Path;
-use toml_edit::{Document, Item};
+use toml::de::{DeTable, DeValue};
 
 /// Why a scene could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -196,36 +196,51 @@ fn locate_error(text: &str, error: &toml::de::Error) -> usize {
     start
 }
 
-/// Where the value of a key such as `lights[1].size` stands in the text.
+/// Offset of the value of a key such as `lights[1].size`, or of its innermost parent that the text has.
 fn offset_of(text: &str, path: &str) -> Option<usize> {
-    let document = Document::parse(text).ok()?;
-    let mut item: &Item = document.as_item();
-    let mut offset = None;
-    for key in path.split(['.', '[', ']']).filter(|k| !k.is_empty()) {
-        let next = match key.parse::<usize>() {
-            Ok(index) => {
-                if let Some(tables) = item.as_array_of_tables() {
-                    offset = tables.get(index).and_then(toml_edit::Table::span).map(|s| s.start).or(offset);
-                    // Keys of an element are found through the element's own table.
-                    return tables
-                        .get(index)
-                        .and_then(|table| {
-                            let rest = path.split_once(&format!("[{index}]."));
-                            rest.and_then(|(_, key)| table.get(key)).and_then(Item::span).map(|s| s.start)
-                        })
-                        .or(offset);
-                }
-                None
-            }
-            Err(_) => item.get(key),
+    let document = DeTable::parse(text).ok()?;
+    let mut parts = path.split(['.', '[', ']']).filter(|part| !part.is_empty());
+    let mut found = document.get_ref().get(parts.next()?)?;
+    for part in parts {
+        let next = match (found.get_ref(), part.parse::<usize>()) {
+            (DeValue::Array(elements), Ok(index)) => elements.get(index),
+            (DeValue::Table(table), _) => table.get(part),
+            _ => None,
         };
-        match next {
-            Some(found) => {
-                offset = found.span().map(|s| s.start).or(offset);
-                item = found;
-            }
-            None => break,
-        }
+        let Some(next) = next else { break };
+        found = next;
     }
-    offset
+    Some(found.span().start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_located_by_their_keys_down_to_list_elements() {
+        let text = "majorant = 1
+[medium.majorant]
+factor = 2
+[[lights]]
+size = [1, 2]
+[[lights]]
+size = [3, 4]
+  [lights.spectrum]
+  peak = 5
+";
+        for (path, value) in [
+            ("majorant", "1"),
+            ("medium.majorant.factor", "2"),
+            ("medium.majorant.missing", "[medium.majorant]"),
+            ("lights[0].size[1]", "2"),
+            ("lights[1].size[0]", "3"),
+            ("lights[1].spectrum.peak", "5"),
+            ("lights[1].missing", "[[lights]]\nsize = [3"),
+        ] {
+            let found = offset_of(text, path).and_then(|offset| text.get(offset..));
+            assert!(found.is_some_and(|rest| rest.starts_with(value)), "{path}: {found:?}");
+        }
+        assert_eq!(offset_of(text, "film.width"), None);
+    }
 }

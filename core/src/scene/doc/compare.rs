@@ -147,7 +147,7 @@ enum Written {
     Render {
         estimator: String,
         #[serde(default)]
-        spp: Option<u32>,
+        spp: Option<u64>,
         #[serde(default)]
         relative_error: Option<f32>,
     },

@@ -1,7 +1,7 @@
 //! Checks of a comparison.
 
 use super::{Checker, Problem, scene_problems};
-use crate::scene::{Limits, MAX_VIEWS, ReferenceDoc, SceneDoc};
+use crate::scene::{MAX_VIEWS, ReferenceDoc, SceneDoc};
 
 pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     let compare = &doc.compare;
