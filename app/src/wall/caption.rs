@@ -180,14 +180,15 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32)
                 error_tip(measure, measured),
             ),
             None => {
-                let efficiency = format!("   1/σ²s {}", digits(standing.efficiency));
+                let efficiency = format!("   efficiency {}", digits(standing.efficiency));
                 (
                     called("σ²")
-                        + &words::quantity(standing.variance, standing.variance_error)
-                        + if width > ERROR_NAMED_FROM { &efficiency } else { "" },
+                        + &digits(standing.variance)
+                        + if width > SAMPLES_FROM { &efficiency } else { "" },
                     format!(
-                        "Variance of a pixel's mean, over pixels and channels, and efficiency, 1 / (variance · CPU \
+                        "± {}\nVariance of a pixel's mean, over pixels and channels, and efficiency, 1 / (variance · CPU \
                          seconds): neither needs a reference{}",
+                        digits(standing.variance_error),
                         not_measured(standing, doc).map_or_else(String::new, |why| format!("\n{why}"))
                     ),
                 )

@@ -41,9 +41,9 @@ pub struct Wall {
     selected: usize,
     reference: ReferenceKeeper,
     analyst: Analyst,
-    analysis: Arc<Analysis>,
+    newest: Arc<Analysis>,
     /// The part of it that describes what is shown.
-    current: Arc<Analysis>,
+    analysis: Arc<Analysis>,
     /// Whether nothing is rendered until it is told to go on: views and reference alike.
     paused: bool,
     /// What the analyst was last asked about.
@@ -95,8 +95,8 @@ impl Wall {
             selected: 0,
             reference: ReferenceKeeper::default(),
             analyst: Analyst::new(repaint)?,
+            newest: Arc::default(),
             analysis: Arc::default(),
-            current: Arc::default(),
             paused: false,
             asked: None,
             hung: BTreeMap::new(),
@@ -187,7 +187,7 @@ impl Wall {
         let sights = self.sights();
         self.hung.retain(|sight, _| sights.contains(sight));
         if let Some(analysis) = self.analyst.take() {
-            self.analysis = analysis;
+            self.newest = analysis;
         }
         self.refresh(session);
         self.ask();
@@ -230,7 +230,7 @@ impl Wall {
 
     /// Whether the newest analysis has not yet traced all samples of the picked pixel.
     fn pixel_samples_missing(&self) -> bool {
-        let Some((at, samples)) = &self.analysis.pixel else { return false };
+        let Some((at, samples)) = &self.newest.pixel else { return false };
         self.picked == Some(*at)
             && samples.iter().any(|s| {
                 let spp = self.slots.get(s.view).map_or(0, |slot| slot.stats.spp as usize);
@@ -338,7 +338,7 @@ impl Wall {
     /// The newest numbers, as far as they describe what is shown: see [`Provenance`].
     #[must_use]
     pub fn analysis(&self) -> &Arc<Analysis> {
-        &self.current
+        &self.analysis
     }
 
     /// A reference file is read again, whatever is known of it.

@@ -17,11 +17,13 @@ use std::fmt::Write;
 /// See the [module](self).
 pub struct Ranking;
 
-/// Below this width columns are left out that others imply.
+/// Below this width names are shortened.
 const NARROW: f32 = 760.0;
+/// Width of the columns of errors, which a table without a reference spares.
+const ERRORS: f32 = 200.0;
 
-/// A column's heading, what its numbers are, and whether it stays in a narrow table.
-type Heading = (&'static str, &'static str, bool);
+/// A column's heading, what its numbers are, and the width of the table from which it is there.
+type Heading = (&'static str, &'static str, f32);
 
 /// The column that is headed by the measure of error.
 const ERROR: &str = "error";
@@ -30,22 +32,22 @@ const SHARE: &str = "ref. ±";
 
 /// Columns of numbers.
 const HEADINGS: &[Heading] = &[
-    ("spp", "Samples per pixel", true),
-    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", false),
-    ("look-ups", "Evaluations of the medium per path", false),
-    (ERROR, "", true),
+    ("spp", "Samples per pixel", 0.0),
+    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", 900.0),
+    ("look-ups", "Evaluations of the medium per path", 960.0),
+    (ERROR, "", 0.0),
     (
         SHARE,
         "What the reference's own noise adds to an error: it is taken off, and in full part of the error's ±",
-        true,
+        1020.0,
     ),
-    ("variance", "Variance of a pixel's mean, over pixels and channels", true),
-    ("colour", "The part of the variance that is colour noise: perpendicular to grey", true),
-    ("efficiency", "1 / (variance · CPU seconds)", false),
+    ("variance", "Variance of a pixel's mean, over pixels and channels", 0.0),
+    ("colour", "The part of the variance that is colour noise: perpendicular to grey", 840.0),
+    ("efficiency", "1 / (variance · CPU seconds)", 780.0),
     (
         "speed-up",
         "Efficiency over that of the baseline, with its 95 % interval: from the variance's own error and the scatter of the cost",
-        true,
+        0.0,
     ),
 ];
 
@@ -99,7 +101,8 @@ impl Tab for Ranking {
         let measure = analysis.measure.filter(|_| cx.doc.compare.reference != ReferenceDoc::None);
         let row_height = 21.0 * ui.text_style_height(&egui::TextStyle::Small) / 14.0 + 2.0;
         let wide = ui.available_width() > NARROW;
-        let shown = |h: &Heading| (wide || h.2) && (measure.is_some() || ![ERROR, SHARE].contains(&h.0));
+        let room = ui.available_width() + if measure.is_some() { 0.0 } else { ERRORS };
+        let shown = |h: &Heading| room >= h.2 && (measure.is_some() || ![ERROR, SHARE].contains(&h.0));
         let columns = HEADINGS.iter().filter(|h| shown(h)).count();
         egui::ScrollArea::horizontal().auto_shrink([false, true]).show(ui, |ui| {
             let table = TableBuilder::new(ui)

@@ -98,6 +98,6 @@ impl Wall {
     pub(super) fn refresh(&mut self, session: &Session) {
         let target = self.target();
         self.reference.update(&self.doc, &self.slots, target.as_deref(), session);
-        self.current = Arc::new(self.analysis.matching(&self.provenance()));
+        self.analysis = Arc::new(self.newest.matching(&self.provenance()));
     }
 }
