@@ -28,7 +28,7 @@ fn picture(seed: u64, quiet: u64, bias: f32) -> Snapshot {
         mean,
         standard_error,
         noise,
-        spp: SPP as u64,
+        spp: SPP,
         coarse: None,
         seconds: 1.0,
         cpu_seconds: 2.0,

@@ -40,8 +40,11 @@ impl Tab for Parts {
     fn csv(&self, cx: &mut Cx<'_>) -> Option<String> {
         let (view, slot) = (cx.wall.selected(), cx.wall.selected_slot()?);
         let state = &cx.inspector.parts;
-        let question =
-            PartsQuestion { of: (view, slot.state.generation), split: state.split, spp: state.spp() };
+        let question = PartsQuestion {
+            of: (view, slot.state.generation, slot.probe()?.raises()),
+            split: state.split,
+            spp: state.spp(),
+        };
         let parts = state.errand.answer_to(&question)?;
         let shares = parts.variance_shares(|_, _| true);
         let mut text = String::from("part,r,g,b,variance_share\n");

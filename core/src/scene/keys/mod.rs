@@ -205,7 +205,7 @@ const SHARE: Range = Range::closed(0.0, 1.0);
 /// Limits that have to be positive.
 const POSITIVE: Range = Range::above(0.0, f32::MAX as f64);
 /// Numbers of samples.
-const SAMPLES: Range = Range::closed(1.0, (1u64 << 30) as f64);
+const SAMPLES: Range = Range::closed(1.0, i64::MAX as f64);
 /// Random seeds: what a scene file holds.
 const SEEDS: Range = Range::closed(0.0, i64::MAX as f64);
 
