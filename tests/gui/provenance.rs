@@ -101,8 +101,10 @@ fn a_verdict_goes_in_the_frame_in_which_its_view_is_edited() {
     lab.step();
     let now = lab.state().wall().slots()[0].state.generation;
     assert!(now > before);
-    // B was held against A, and A is another.
+    // In this very frame; B was held against A, and A is another.
+    assert_eq!(labels(&lab, "agree"), 0, "a verdict on what is not rendered any more");
     let new = |app: &LabApp| app.wall().analysis().standings.iter().any(|s| s.label == "A");
+    assert!(!new(lab.state()), "numbers of what is not rendered any more");
     while !new(lab.state()) {
         assert_eq!(labels(&lab, "agree"), 0, "a verdict on what is not rendered any more");
         assert_current(lab.state());
