@@ -85,7 +85,7 @@ static BRIGHT: [Entry; 1] = [Entry {
     name: "Too bright",
     summary: "",
     reference: "",
-    unused: &[],
+    uses: estimator::Axis::ALL.as_slice(),
     infinite_variance: |_| None,
     bias_of: |_| None,
     kernel: bright,

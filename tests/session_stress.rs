@@ -11,7 +11,7 @@ use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
 use std::sync::Arc;
 use std::time::Duration;
 
-const SPP: u32 = 8;
+const SPP: u64 = 8;
 const VIEWS: u32 = 3;
 const REQUESTS: u32 = 150;
 
@@ -55,7 +55,7 @@ fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) 
             0 | 1 => session.set_paused(view, below(2) == 0),
             2 | 3 => session.step(view),
             4 => session.restart(view),
-            5 | 6 => session.set_limits(view, Limits::samples(1 + below(SPP))),
+            5 | 6 => session.set_limits(view, Limits::samples(1 + u64::from(below(SPP as u32)))),
             7 | 8 => {
                 let chosen = below(documents.len() as u32) as usize;
                 session.submit(view, job(&documents[chosen].0, below(2) == 0));

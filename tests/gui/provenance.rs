@@ -187,7 +187,7 @@ fn paused_are_all_views_and_the_reference_those_that_come_later_too() {
     assert!(still(lab.state()));
     // A step is one of each.
     click(&mut lab, Role::Button, "Step");
-    let each = |app: &LabApp, spp: u32| {
+    let each = |app: &LabApp, spp: u64| {
         let slots = app.wall().slots().iter().chain(app.wall().rendered_reference());
         slots.into_iter().all(|s| s.picture().is_some_and(|p| p.coarse.is_none() && p.spp == spp))
     };
