@@ -180,7 +180,7 @@ fn absurd_scenes_are_refused_by_name() {
         ("[film]\nwidth = 100000\nheight = 100000", "film"),
         ("[film]\nwidth = 0\nheight = 0", "film"),
         ("[render]\nspp = 0", "spp"),
-        ("[render]\nspp = 4294967295", "spp"),
+        ("[render]\nspp = 9223372036854775808", ""),
         ("[render]\nthreads = 0", "threads"),
         ("[render]\nseconds = -1.0", "seconds"),
         ("[medium]\nscale = -1.0", "medium.scale"),

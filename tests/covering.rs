@@ -66,7 +66,12 @@ fn every_pair_of_settings_is_true() {
     let failures: Vec<_> = report.failures().map(|row| (&row.scene, row.measured, row.expected)).collect();
     assert!(failures.is_empty(), "{failures:#?}");
     assert_eq!(report.rows.len(), array.rows.len(), "nothing is left out");
-    let weak: Vec<_> = report.rows.iter().filter(|r| r.detectable.is_nan() || r.detectable > 0.01).map(|r| &r.scene).collect();
+    let weak: Vec<_> = report
+        .rows
+        .iter()
+        .filter(|r| r.detectable.is_nan() || r.detectable > 0.01)
+        .map(|r| &r.scene)
+        .collect();
     assert!(weak.is_empty(), "{weak:#?}");
 }
 

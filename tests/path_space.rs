@@ -441,14 +441,20 @@ impl<M: Medium> Setup<'_, M> {
             if !to_light {
                 steps.push(step(t0 + inside.t_end * last, Event::Scattering, random.next_1d() < 0.5));
             }
-            for s in &steps {
-                let (_, inside, segment) = segment_at(&world, &ray, s.t)?;
-                let all = world.medium.coefficients(inside, &segment);
-                // Where the majorant is tight, rounding is all that is left of a null collision.
-                let null = (segment.majorant - all.extinction()).abs();
-                let tight = null.zip(segment.majorant, |n, m| if n < 1e-2 * m { 1.0 } else { 0.0 });
-                if s.event == Event::Null && !tight.is_zero() {
+            for s in &mut steps {
+                let (point, inside, segment) = segment_at(&world, &ray, s.t)?;
+                let extinction = world.medium.coefficients(inside, &segment).extinction();
+                // Where a bound is tight, rounding is all that is left beyond it.
+                let tight = |rest: Sampled<N>, whole: Sampled<N>| {
+                    rest.abs().zip(whole, |r, w| if r < 1e-2 * w { 1.0 } else { 0.0 }).max_component() > 0.0
+                };
+                if s.event == Event::Null && tight(segment.majorant - extinction, segment.majorant) {
                     return None;
+                }
+                let place = Place { point, inside, segment: &segment };
+                let control = place.control(&world.medium, EventRule::from(&world.settings));
+                if let (Event::Scattering, Some((control, _))) = (s.event, control) {
+                    s.control |= tight(extinction - control, extinction);
                 }
             }
             let end = path.stretches.len();

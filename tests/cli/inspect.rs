@@ -30,12 +30,17 @@ fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
     let lanes =
         |value: &Value| value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
     let (mut held, mut turned) = (0, false);
-    for row in json["rows"].as_array().unwrap() {
+    let samples = (0..8).map(|sample| {
+        let sample = sample.to_string();
+        self::json(&[&path[..], &["--sample", &sample, "--json"]].concat())
+    });
+    let rows: Vec<Value> = samples.flat_map(|json| json["rows"].as_array().unwrap().clone()).collect();
+    for row in &rows {
         let kept = row["kept"].as_array().unwrap();
         // Light is sampled at a turn: between a vertex and that p_nee means nothing.
         match row["event"].as_str().unwrap() {
             "turns" => turned = true,
-            "scatters" | "is reflected" => turned = false,
+            "scatters" | "is reflected" | "leaves the camera" => turned = false,
             _ => {}
         }
         if row["branch"] == "path" && !turned {

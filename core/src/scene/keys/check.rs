@@ -2,21 +2,31 @@
 
 use super::part::Leaf;
 use super::{DIRECTION, Range, Type, part};
-use crate::scene::{Problem, SceneDoc};
+use crate::scene::{Problem, ReferenceDoc, SceneDoc};
 use crate::spectrum::SpectrumDoc;
 use toml::Value;
 
 /// Every value of a document that its key does not allow, in the order of the table. Views beside the scene's own are
 /// checked by [`crate::scene::validate`], as what they render.
 pub(in crate::scene) fn check(doc: &SceneDoc) -> Vec<Problem> {
-    // A scene file holds no larger seed: that is a problem, but none of the other keys'.
     let mut doc = doc.clone();
     doc.compare.views.clear();
     let mut problems = Vec::new();
-    if i64::try_from(doc.render.seed).is_err() {
-        let message = "is above 2^63 − 1, the largest number that a scene file holds".into();
-        problems.push(Problem { path: "render.seed".into(), message });
+    // A scene file holds no larger number: that is a problem, but none of the other keys'.
+    let mut fits = |path: &str, number: u64| {
+        let fits = i64::try_from(number).is_ok();
+        if !fits {
+            let message = "is above 2^63 − 1, the largest number that a scene file holds".into();
+            problems.push(Problem { path: path.into(), message });
+        }
+        fits
+    };
+    if !fits("render.seed", doc.render.seed) {
         doc.render.seed = 0;
+    }
+    doc.render.spp = doc.render.spp.filter(|spp| fits("render.spp", *spp));
+    if let ReferenceDoc::Render { spp, .. } = &mut doc.compare.reference {
+        *spp = spp.filter(|spp| fits("compare.reference.spp", *spp));
     }
     match part::leaves(&doc) {
         Ok(leaves) => problems.extend(leaves.iter().filter_map(problem)),
@@ -97,8 +107,8 @@ fn numbers(value: &Value) -> Vec<f32> {
 /// A range in words.
 pub(super) fn words(range: Range) -> String {
     let end = |x: f64| match x.abs() {
-        // Beyond what anybody counts in digits.
         large if large >= f64::from(f32::MAX) => "any finite number".to_owned(),
+        large if large == i64::MAX as f64 => "2^63 − 1".to_owned(),
         large if large >= 1e7 => format!("{x:e}"),
         _ => (x as f32).to_string(),
     };
