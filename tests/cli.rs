@@ -211,9 +211,10 @@ fn info_describes_volumes_and_scenes() {
         serde_json::from_str(&succeeds(&["info", &file("volumes/t_mask.vdb"), "--json"])).unwrap();
     assert!(refused["grids"][0]["error"].as_str().unwrap().contains("t_mask.vdb"));
     let npy: Value =
-        serde_json::from_str(&succeeds(&["info", &file("oracle/S2/density.npy"), "--json"])).unwrap();
+        serde_json::from_str(&succeeds(&["info", &file("../assets/oracle/S2/density.npy"), "--json"]))
+            .unwrap();
     assert_eq!(npy["grids"][0]["bbox"], serde_json::json!([0, 0, 0, 63, 63, 63]));
-    assert!(succeeds(&["info", &file("oracle/S2/scene.toml")]).contains("uni-nee-mis"));
+    assert!(succeeds(&["info", &file("../assets/oracle/S2/scene.toml")]).contains("uni-nee-mis"));
 }
 
 #[test]

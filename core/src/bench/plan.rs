@@ -3,7 +3,7 @@
 use crate::compare::Reference;
 use crate::estimator::Entry;
 use crate::io::Library;
-use crate::scene::{EstimatorDoc, SceneDoc};
+use crate::scene::{Bookkeeping, EstimatorDoc, SceneDoc};
 use crate::session::Budget;
 
 /// A scene to be run.
@@ -30,19 +30,25 @@ pub struct Entrant {
     pub entry: &'static Entry,
     /// Its settings, in place of the scene's.
     pub settings: EstimatorDoc,
+    /// Whether the bias of its bookkeeping is what is measured: it takes part all the same.
+    pub own_bias: bool,
 }
 
 impl Entrant {
     /// An estimator with a scene's own settings.
     #[must_use]
     pub fn of(entry: &'static Entry, doc: &SceneDoc) -> Self {
-        Self { name: entry.id.to_owned(), entry, settings: doc.estimator.clone() }
+        Self { name: entry.id.to_owned(), entry, settings: doc.estimator.clone(), own_bias: false }
     }
 
-    /// Why its estimate of a scene is biased, if it is.
+    /// Why its estimate of a scene is biased, if it is by anything but what it is there to measure.
     #[must_use]
     pub fn bias(&self, doc: &SceneDoc) -> Option<&'static str> {
-        self.entry.bias(&SceneDoc { estimator: self.settings.clone(), ..doc.clone() })
+        let mut doc = SceneDoc { estimator: self.settings.clone(), ..doc.clone() };
+        if self.own_bias {
+            doc.estimator.bookkeeping = Bookkeeping::default();
+        }
+        self.entry.bias(&doc)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::bench::Entrant;
 use crate::estimator;
 use crate::io::scene_file;
-use crate::scene::{Bookkeeping, SceneDoc};
+use crate::scene::SceneDoc;
 
 /// An estimator with settings.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,7 @@ pub static VARIANTS: &[Variant] = &[
         own_bias: true,
         ..uni_nee_mis(
             "uni-nee-mis-apart-f32",
-            "Uni+NEE MIS, f and p apart in f32 (loses light)",
+            "Uni+NEE MIS, f and p apart in f32",
             &[WEIGHTED, "estimator.bookkeeping=apart-f32"],
         )
     },
@@ -85,13 +85,15 @@ impl Variant {
             return Err(problem.to_string());
         }
         let entry = estimator::find(self.estimator).ok_or("there is no such estimator")?;
-        let mut without_own = doc.clone();
-        if self.own_bias {
-            without_own.estimator.bookkeeping = Bookkeeping::default();
-        }
-        match entry.bias(&without_own).or_else(|| (entry.infinite_variance)(&doc)) {
+        let entrant = Entrant {
+            name: self.id.to_owned(),
+            entry,
+            settings: doc.estimator.clone(),
+            own_bias: self.own_bias,
+        };
+        match entrant.bias(&doc).or_else(|| (entry.infinite_variance)(&doc)) {
             Some(reason) => Err(reason.to_owned()),
-            None => Ok(Entrant { name: self.id.to_owned(), entry, settings: doc.estimator }),
+            None => Ok(entrant),
         }
     }
 }
