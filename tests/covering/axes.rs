@@ -152,6 +152,10 @@ impl Row {
         if self.place().known == Known::Transmittance && self.entry().connects() {
             return Some("known: connections need scattering".into());
         }
+        // Weights below a majorant that bounds vary the more the longer the paths are.
+        if self.place().known == Known::Furnace && self.value("medium.majorant.factor") == "0.5" {
+            return Some("known: an exceeded majorant is held by single scattering and transmittance".into());
+        }
         let doc = self.document();
         let entry = self.entry();
         if let Some(problem) = estimator::validate(&doc).into_iter().next() {

@@ -65,7 +65,7 @@ fn closing_cancels() {
 fn what_is_biased_by_choice_is_not_compared() {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("clamped.toml");
-    let text = "majorant = 1\nfilm = { width = 8, height = 8 }\n[medium.majorant]\nfactor = 0.5\nwhen_exceeded = \"clamp\"";
+    let text = "majorant = 1\nfilm = { width = 8, height = 8 }\n[medium]\ndensity = { kind = \"grid\", file = \"embedded:cloud.vdb\" }\n[medium.majorant]\nfactor = 0.5\nwhen_exceeded = \"clamp\"";
     std::fs::write(&path, text).expect("a scene file");
     let mut lab = lab_on(Source::File(path));
     opened(&mut lab);
