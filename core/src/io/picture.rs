@@ -154,7 +154,7 @@ const LARGEST_HALF: f32 = 65504.0;
 /// Beyond this, sums over a large picture leave the range of floats.
 const INFINITE: f32 = 1e30;
 
-/// Reads a panorama as linear sRGB that is finite and not negative. Infinite texels become [`LARGEST_HALF`], what is NaN
+/// Reads a panorama as linear sRGB that is finite and not negative. Infinite texels become `LARGEST_HALF`, what is NaN
 /// or negative 0; each is told.
 ///
 /// # Errors

@@ -155,7 +155,7 @@ impl<const N: usize> Part<N> {
 
 impl<const N: usize> Place<'_, N> {
     /// The control's extinction and albedo: none under other rules than decomposition tracking, and none where the
-    /// majorant may be exceeded (see [`super::event`]).
+    /// majorant may be exceeded: see the head of `event.rs`.
     #[must_use]
     #[inline(always)]
     pub fn control<L: LocalMedium<N>>(
