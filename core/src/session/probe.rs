@@ -49,8 +49,8 @@ impl Probe {
         Self { scene, before: Vec::new(), kernel, settings, found }
     }
 
-    /// The same, for paths of which nothing is to be learnt about the majorant: looking at paths must not change those that
-    /// a film is still to get.
+    /// The same probe with findings of its own about exceeded majorants, so that replayed paths do not raise the majorants
+    /// of the film.
     #[must_use]
     pub fn aside(&self) -> Self {
         let scene = &self.scene;
