@@ -4,7 +4,7 @@
 use majorant_core::estimator::PathIndex;
 use majorant_core::io::{Library, picture, scene_file};
 use majorant_core::scene::{Angle, DensityDoc, GridRef, LightDoc, PhaseDoc, SceneDoc, build};
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use majorant_tests::render::frozen;
 use std::path::Path;
 
@@ -127,9 +127,13 @@ fn a_scene_without_light_is_black_and_says_so() {
     assert!(scene.notices[0].contains("No light"), "{:?}", scene.notices);
     for entry in majorant_core::estimator::REGISTRY {
         let settings = majorant_core::estimator::Settings::new(&doc.estimator, 0);
-        let rgb =
-            (entry.kernel)(&scene, &settings, PathIndex { x: 480, y: 270, sample: 0 }, Wanted::ALWAYS.into())
-                .rgb;
+        let rgb = (entry.kernel)(
+            &scene,
+            &settings,
+            PathIndex { x: 480, y: 270, sample: 0 },
+            CancelToken::NEVER.into(),
+        )
+        .rgb;
         assert_eq!(rgb.to_array(), [0.0; 3], "{}", entry.id);
     }
 }

@@ -12,11 +12,11 @@ use majorant_core::estimator::{self, Entry, PathEstimate, PathIndex, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::scene::{Fault, Scene, WhenExceeded};
 use majorant_core::spectrum::SpectrumDoc;
-use majorant_core::transport::{Company, Wanted};
+use majorant_core::transport::{CancelToken, PathContext};
 use std::collections::BTreeMap;
 
 fn run(cases: Vec<Case>, effort: Effort) -> Report {
-    let report = Check { cases, effort }.run(Wanted::ALWAYS, |progress| {
+    let report = Check { cases, effort }.run(CancelToken::NEVER, |progress| {
         for r in progress.rows {
             println!(
                 "{:36} {:13} {:9.5} {:9.5} z {:5.2} worst {:5.2} of {:4.2} sees {:5.2} % with {:>9} paths {:?}",
@@ -75,8 +75,8 @@ fn estimators_agree_on_the_embedded_scenes() {
 }
 
 /// An estimator that is 3 % too bright and true otherwise.
-fn bright(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
-    let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, company);
+fn bright(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
+    let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, context);
     PathEstimate { rgb: truth.rgb * 1.03, ..truth }
 }
 

@@ -6,7 +6,7 @@ use majorant_core::estimator::{self, PathIndex, REGISTRY, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::medium::Interpolation;
 use majorant_core::scene::{Mode, SceneDoc, build};
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use majorant_tests::render::{CAMERA, allowed, mean, scene};
 
 /// A lamp's light reaches all the way through the medium that the lamp stands in: at distance d in a
@@ -118,7 +118,7 @@ fn the_majorant_is_exceeded_only_where_it_does_not_bound() {
             let pixels = (0..24).flat_map(|x| (0..16).map(move |y| (x, y)));
             let paths = pixels.flat_map(|at| (0..8).map(move |sample| (at, sample)));
             paths.fold((0, 0), |(exceeded, lookups), ((x, y), sample)| {
-                let path = kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS.into());
+                let path = kernel(&scene, &settings, PathIndex { x, y, sample }, CancelToken::NEVER.into());
                 (exceeded + path.exceeded, lookups + path.lookups)
             })
         };

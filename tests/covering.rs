@@ -22,7 +22,7 @@ use axes::{AXES, Row};
 use majorant_core::check::{Case, Check, Effort, Report, Verdict};
 use majorant_core::estimator::{Entry, PathIndex, REGISTRY, Settings};
 use majorant_core::scene::build;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 
 fn case(number: usize, row: &Row) -> Case {
     let place = row.place();
@@ -33,7 +33,7 @@ fn case(number: usize, row: &Row) -> Case {
 }
 
 fn run(cases: Vec<Case>, effort: Effort) -> Report {
-    let report = Check { cases, effort }.run(Wanted::ALWAYS, |progress| {
+    let report = Check { cases, effort }.run(CancelToken::NEVER, |progress| {
         for r in progress.rows {
             println!(
                 "{:9.5} {:9.5} z {:5.2} sees {:5.2} % with {:>9} paths {:?}  {}",
@@ -165,7 +165,10 @@ fn unused_axes_leave_images_as_they_are() {
         let settings = Settings::new(&doc.estimator, 5);
         let at = |i: u32| PathIndex { x: i % 2, y: i / 2 % 2, sample: u64::from(i / 4) };
         let bits = |i| {
-            (entry.kernel)(&scene, &settings, at(i), Wanted::ALWAYS.into()).rgb.to_array().map(f32::to_bits)
+            (entry.kernel)(&scene, &settings, at(i), CancelToken::NEVER.into())
+                .rgb
+                .to_array()
+                .map(f32::to_bits)
         };
         (0..400).map(bits).collect()
     };

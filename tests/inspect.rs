@@ -13,7 +13,7 @@ use majorant_core::scene::{
     WhenExceeded, build,
 };
 use majorant_core::session::ViewId;
-use majorant_core::transport::{Note, Wanted};
+use majorant_core::transport::{CancelToken, Note};
 use majorant_tests::session::{Watched, job};
 
 /// Scenes in which paths meet everything: colours, grids, grey, surfaces, a glow, a majorant that is exceeded.
@@ -68,8 +68,8 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
                 let place = random.next_2d();
                 let (x, y) = ((place.x * 64.0) as u32, (place.y * 48.0) as u32);
                 let at = PathIndex { x, y, sample: u64::from((random.next_1d() * 64.0) as u32) };
-                let alone = (entry.kernel)(&scene, &settings, at, Wanted::ALWAYS.into());
-                let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+                let alone = (entry.kernel)(&scene, &settings, at, CancelToken::NEVER.into());
+                let recording = Recording::new(&scene, entry.kernel, &settings, at, CancelToken::NEVER);
                 let bits = |rgb: [f32; 3]| rgb.map(f32::to_bits);
                 let what = format!("{name}, {}, {at:?}", entry.id);
                 assert_eq!(
@@ -152,7 +152,7 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                 let place = random.next_2d();
                 let (x, y) = ((place.x * 64.0) as u32, (place.y * 48.0) as u32);
                 let at = PathIndex { x, y, sample: u64::from((random.next_1d() * 64.0) as u32) };
-                let recording = Recording::new(&scene, entry.kernel, &settings, at, Wanted::ALWAYS);
+                let recording = Recording::new(&scene, entry.kernel, &settings, at, CancelToken::NEVER);
                 let ledger = Ledger::new(&recording);
                 let count = ledger.carried.count();
                 let mut turned = false;
@@ -222,7 +222,7 @@ fn the_film_holds_what_the_ledgers_say() {
         let probe = session.state(ViewId(0)).probe.unwrap();
         for (i, mean) in film.mean.iter().enumerate() {
             let at = PathIndex { x: (i % 64) as u32, y: (i / 64) as u32, sample: 0 };
-            let ledger = Ledger::new(&probe.record(at, Wanted::ALWAYS));
+            let ledger = Ledger::new(&probe.record(at, CancelToken::NEVER));
             assert_eq!(ledger.film.to_array(), *mean, "{} {at:?}", entry.id);
         }
     }
@@ -241,14 +241,14 @@ fn the_parts_of_an_image_sum_to_it() {
                 .map(|i| {
                     let paths = (0..8).map(|sample| PathIndex { x: i % 16, y: i / 16, sample });
                     let sum = paths
-                        .map(|at| kernel(&scene, &settings, at, Wanted::ALWAYS.into()).rgb.as_dvec3())
+                        .map(|at| kernel(&scene, &settings, at, CancelToken::NEVER.into()).rgb.as_dvec3())
                         .sum::<glam::DVec3>();
                     (sum / 8.0).to_array()
                 })
                 .collect();
             for split in Split::ALL {
                 let plan = StrategyPlan::whole(&scene, kernel, &settings, (0, 8));
-                let parts = Strategies::render(&plan, split, Wanted::ALWAYS).unwrap();
+                let parts = Strategies::render(&plan, split, CancelToken::NEVER).unwrap();
                 for (i, whole) in image.iter().enumerate() {
                     for (c, channel) in whole.iter().enumerate() {
                         let sum: f64 = parts.layers.iter().map(|l| f64::from(l.mean[i][c])).sum();
@@ -274,7 +274,7 @@ fn parts_are_named_by_how_they_came_about() {
     let names = |id: &str, split| -> Vec<String> {
         let kernel = majorant_core::estimator::find(id).unwrap().kernel;
         let plan = StrategyPlan::whole(&scene, kernel, &settings, (0, 64));
-        let parts = Strategies::render(&plan, split, Wanted::ALWAYS).unwrap();
+        let parts = Strategies::render(&plan, split, CancelToken::NEVER).unwrap();
         parts.layers.into_iter().map(|l| l.name).collect()
     };
     assert_eq!(names("uni-nee-mis", Split::Order), ["0", "1"]);

@@ -22,8 +22,8 @@ use majorant_core::scene::{
 };
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
 use majorant_core::transport::{
-    Collision, EquiangularWeights, Event, EventRule, LightDensities, Part, Passage, PathWeights, Place,
-    Reached, Turn, Vertex, WalkWeights, Weights, WeightsApart, WeightsPairwise, World,
+    Collision, DirectionSample, EquiangularWeights, Event, EventRule, LightDensities, Part, Passage,
+    PathWeights, Place, Reached, Vertex, WalkWeights, Weights, WeightsApart, WeightsPairwise, World,
 };
 use majorant_tests::fixture::npy;
 
@@ -222,10 +222,14 @@ fn by_ratio<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usi
     Some(())
 }
 
-fn turn<const N: usize, W: WalkWeights<N>>(turn: &Turn, term: &mut Term<N>, weights: &mut W) {
-    term.p *= f64::from(turn.density);
-    term.scale([f64::from(turn.value); N]);
-    weights.leave(turn);
+fn outgoing<const N: usize, W: WalkWeights<N>>(
+    outgoing: &DirectionSample,
+    term: &mut Term<N>,
+    weights: &mut W,
+) {
+    term.p *= f64::from(outgoing.density);
+    term.scale([f64::from(outgoing.value); N]);
+    weights.leave(outgoing);
 }
 
 /// What all makers add for a path, over f, per component in the order of hero 0.
@@ -311,8 +315,8 @@ impl<M: Medium> Setup<'_, M> {
                 let point = stretch.ray.at(stretch.steps.last().unwrap().t);
                 let here = world.scattering_vertex(point, &stretch.ray);
                 if possible && i + 1 < before.len() {
-                    let towards = world.turns().towards(&here, path.stretches[i + 1].ray.direction);
-                    turn(&towards, &mut term, &mut weights);
+                    let towards = world.directions().towards(&here, path.stretches[i + 1].ray.direction);
+                    outgoing(&towards, &mut term, &mut weights);
                 }
                 vertex = Some(here);
             }
@@ -321,7 +325,7 @@ impl<M: Medium> Setup<'_, M> {
                 continue;
             }
             let vertex: Vertex = vertex.unwrap();
-            let towards = world.turns().towards(&vertex, last.ray.direction);
+            let towards = world.directions().towards(&vertex, last.ray.direction);
             let light = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
             let after = (&last.ray, last.steps.as_slice(), last.end);
 
@@ -332,7 +336,7 @@ impl<M: Medium> Setup<'_, M> {
             nee.add(hero, &link_term, link.connected_only(Sampled::ONE, heuristics));
             both.add(hero, &link_term, link.connected_combined(Sampled::ONE, heuristics));
 
-            turn(&towards, &mut term, &mut weights);
+            outgoing(&towards, &mut term, &mut weights);
             if walk(&world, last, &mut term, &mut weights).is_some() {
                 uni.add(hero, &term, weights.unidirectional(Sampled::ONE, heuristics));
                 both.add(hero, &term, weights.combined(Sampled::ONE, light, heuristics));
@@ -363,8 +367,8 @@ impl<M: Medium> Setup<'_, M> {
                 let point = stretch.ray.at(stretch.steps.last().unwrap().t);
                 let here = world.scattering_vertex(point, &stretch.ray);
                 if possible {
-                    turn(
-                        &world.turns().towards(&here, path.stretches[i + 1].ray.direction),
+                    outgoing(
+                        &world.directions().towards(&here, path.stretches[i + 1].ray.direction),
                         &mut term,
                         &mut weights,
                     );
@@ -377,7 +381,7 @@ impl<M: Medium> Setup<'_, M> {
             let step = scattering.steps.last().unwrap();
             let point = scattering.ray.at(step.t);
             let vertex = world.scattering_vertex(point, &scattering.ray);
-            let towards = world.turns().towards(&vertex, last.ray.direction);
+            let towards = world.directions().towards(&vertex, last.ray.direction);
             let nee = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
             let reached = Reached::through(passage, point);
             let light: LightDensities = reached.light_densities(&world, path.light, point, nee);
@@ -414,7 +418,7 @@ impl<M: Medium> Setup<'_, M> {
             by_ratio(&world, after, &mut link_term, &mut link).unwrap();
             all.add(hero, &link_term, link.connected(Sampled::ONE, heuristics));
 
-            turn(&towards, &mut term, &mut weights);
+            outgoing(&towards, &mut term, &mut weights);
             if walk(&world, last, &mut term, &mut weights).is_some() {
                 all.add(hero, &term, weights.combined(Sampled::ONE, light, heuristics));
             }

@@ -7,7 +7,7 @@ use majorant_core::inspect::Split;
 use majorant_core::scene::{DensityDoc, Limits, SceneDoc, WhenExceeded};
 use majorant_core::session::ViewId;
 use majorant_core::spectrum::SpectrumDoc;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
 
 const VIEW: ViewId = ViewId(0);
@@ -89,7 +89,7 @@ fn a_probe_traces_every_sample_with_the_majorants_of_its_time() {
     let snapshot = session.wait_finished(VIEW);
     let probe = session.state(VIEW).probe.unwrap();
     for (x, y) in [(30, 18), (25, 12), (35, 20), (31, 9)] {
-        let samples = probe.samples((x, y), 0..21, Wanted::ALWAYS);
+        let samples = probe.samples((x, y), 0..21, CancelToken::NEVER);
         for c in 0..3 {
             let mean = samples.iter().map(|s| f64::from(s.rgb[c])).sum::<f64>() / 21.0;
             let shown = f64::from(snapshot.mean[(y * 61 + x) as usize][c]);
@@ -109,7 +109,7 @@ fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
     let probe = session.state(VIEW).probe.unwrap();
     assert!(film.tally.exceeded > 0);
     for split in Split::ALL {
-        let parts = probe.strategies(split, 0..SPP, Wanted::ALWAYS).unwrap();
+        let parts = probe.strategies(split, 0..SPP, CancelToken::NEVER).unwrap();
         for (i, mean) in film.mean.iter().enumerate() {
             for (c, shown) in mean.iter().map(|x| f64::from(*x)).enumerate() {
                 let of = || parts.layers.iter().map(|layer| f64::from(layer.mean[i][c]));
@@ -119,10 +119,10 @@ fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
         }
     }
     // The heaviest samples are the film's, too.
-    let evidence = probe.evidence(None, None, Wanted::ALWAYS).unwrap();
+    let evidence = probe.evidence(None, None, CancelToken::NEVER).unwrap();
     for heavy in &evidence.heaviest.named {
-        let recorded = probe.record(heavy.at, Wanted::ALWAYS).estimate.rgb;
-        let traced = probe.path(heavy.at.x, heavy.at.y, heavy.at.sample, Wanted::ALWAYS).rgb;
+        let recorded = probe.record(heavy.at, CancelToken::NEVER).estimate.rgb;
+        let traced = probe.path(heavy.at.x, heavy.at.y, heavy.at.sample, CancelToken::NEVER).rgb;
         assert_eq!(recorded, traced);
         let pixel = film.mean[(heavy.at.y * 61 + heavy.at.x) as usize];
         assert!(heavy.at.sample >= SPP || recorded.element_sum() > pixel.iter().sum(), "{heavy:?}");
@@ -140,9 +140,9 @@ fn looking_at_paths_does_not_raise_the_majorants_of_the_film() {
         session.wait_picture(VIEW, |_, s| s.spp == spp);
         let probe = session.state(VIEW).probe.unwrap();
         let found = probe.violations().exceeded_cells();
-        assert_eq!(probe.samples((30, 18), 1000..1200, Wanted::ALWAYS).len(), 200);
+        assert_eq!(probe.samples((30, 18), 1000..1200, CancelToken::NEVER).len(), 200);
         let other = probe.under(majorant_core::estimator::find("spectral-mis").unwrap());
-        other.strategies(Split::Technique, 500..502, Wanted::ALWAYS).unwrap();
+        other.strategies(Split::Technique, 500..502, CancelToken::NEVER).unwrap();
         assert_eq!(probe.violations().exceeded_cells(), found, "after {spp} samples");
     }
     assert_same(&undisturbed, &session.wait_finished(VIEW));

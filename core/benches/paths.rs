@@ -12,7 +12,7 @@ use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
     DensityDoc, DirectionSampling, GridRef, LightSampling, Mode, Scene, SceneDoc, build,
 };
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 
 /// Paths of one measurement, spread over the picture.
 const PATHS: u32 = 1024;
@@ -27,7 +27,7 @@ fn trace(scene: &Scene, doc: &SceneDoc, entry: &Entry) -> Vec3 {
             y: (i * 101 / 7) % scene.height,
             sample: u64::from(i / 256),
         };
-        sum += (entry.kernel)(scene, &settings, at, Wanted::ALWAYS.into()).rgb;
+        sum += (entry.kernel)(scene, &settings, at, CancelToken::NEVER.into()).rgb;
     }
     sum
 }

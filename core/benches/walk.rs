@@ -10,7 +10,7 @@ use majorant_core::math::Sampler;
 use majorant_core::medium::{AnyMedium, Medium};
 use majorant_core::scene::Absorption;
 use majorant_core::spectrum::{Components, Wavelengths};
-use majorant_core::transport::{PathWeights, Trace, Walk, WalkWeights, Wanted};
+use majorant_core::transport::{CancelToken, PathWeights, Trace, Walk, WalkWeights};
 
 fn walk(c: &mut Criterion) {
     let mut group = c.benchmark_group("majorant walk");
@@ -25,7 +25,7 @@ fn walk(c: &mut Criterion) {
             b.iter(|| {
                 let mut found = 0u64;
                 for path in 0..256 {
-                    let mut trace = Trace::new(Sampler::new(3, path, 0), Wanted::ALWAYS);
+                    let mut trace = Trace::new(Sampler::new(3, path, 0), CancelToken::NEVER);
                     let components =
                         Wavelengths::<4>::sample(trace.sampler.next_1d(), doc.estimator.wavelengths);
                     let local = medium.local(&components);

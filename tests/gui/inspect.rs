@@ -34,7 +34,7 @@ fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
     lab.check_accessibility();
     // The brightest of four, and what the film has of it.
     let probe = lab.state().state().probe.clone().expect("a probe");
-    let samples = probe.samples((16, 9), 0..4, majorant_core::transport::Wanted::ALWAYS);
+    let samples = probe.samples((16, 9), 0..4, majorant_core::transport::CancelToken::NEVER);
     let grey = |i: u64| samples[i as usize].rgb.iter().sum::<f32>();
     let chosen = lab.state().inspector().path.sample.expect("a sample");
     assert!((0..4).all(|i| grey(i) <= grey(chosen)), "{chosen} of {samples:?}");

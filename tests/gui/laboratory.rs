@@ -26,7 +26,7 @@ fn every_axis_is_chosen_by_name() {
     open(&mut lab, "Combination");
     click(&mut lab, Role::Button, "Heroes: Power");
     click(&mut lab, Role::Button, "Techniques: Max");
-    click(&mut lab, Role::Button, "Books: f64");
+    click(&mut lab, Role::Button, "Weights: f64");
     let e = &doc(&lab).estimator;
     assert_eq!(
         (e.distances, e.absorption, e.lights),

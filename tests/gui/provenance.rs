@@ -6,12 +6,12 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use majorant::lab::{Command, LabApp};
 use majorant::model::Source;
-use majorant::view::developer::Sight;
+use majorant::view::tone_mapper::PictureId;
 use majorant::wall::WallEdit;
 use majorant_core::compare::{Against, LEAST_SAMPLES, Verdict, label};
 use majorant_core::scene::{Fault, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 
 /// Two views of a grey cube that agree, and soon.
 const PAIR: &str = r#"
@@ -63,19 +63,19 @@ fn assert_current(app: &LabApp) {
     let wall = app.wall();
     for standing in &wall.analysis().standings {
         let view = (0..wall.slots().len()).find(|v| label(*v) == standing.label).expect("a view");
-        let wanted = app.doc().view_doc(view).expect("its document");
-        assert_eq!(standing.estimator, wanted.estimator.id, "view {}", standing.label);
+        let cancel = app.doc().view_doc(view).expect("its document");
+        assert_eq!(standing.estimator, cancel.estimator.id, "view {}", standing.label);
         let picture = wall.slots()[view].picture().expect("a picture of what was submitted last");
         assert!(standing.spp <= picture.spp, "{} samples of {}", standing.spp, picture.spp);
-        let hung = wall.hung(Sight::View(view)).and_then(|h| h.snapshot.as_ref());
-        assert!(hung.is_none_or(|h| h.generation == picture.generation), "an older picture hangs");
+        let uploaded = wall.uploaded(PictureId::View(view)).and_then(|h| h.snapshot.as_ref());
+        assert!(uploaded.is_none_or(|h| h.generation == picture.generation), "an older picture hangs");
         if let Against::Others(others) = &standing.against {
             for other in others.split(", ") {
                 assert!(wall.analysis().standing(other).is_some(), "{other} has no numbers of its own");
             }
         }
     }
-    let reference = wall.hung(Sight::Reference).and_then(|h| h.reference.as_ref());
+    let reference = wall.uploaded(PictureId::Reference).and_then(|h| h.reference.as_ref());
     if let (Some(shown), Some(slot)) = (reference.and_then(|r| r.snapshot()), wall.rendered_reference()) {
         assert_eq!(shown.generation, slot.state.generation, "the reference's picture is an older one's");
     }
@@ -222,11 +222,13 @@ fn without_a_reference_variance_and_efficiency_stand_where_errors_would() {
     );
     // No map of errors either, but one of z.
     wall(&mut lab, WallEdit::Layer("relative".into()));
-    watch(&mut lab, "no map", |app| app.wall().hung(Sight::View(0)).is_none());
+    watch(&mut lab, "no map", |app| app.wall().uploaded(PictureId::View(0)).is_none());
     lab.step();
     assert!(labels(&lab, "Errors need a reference") >= 2);
     wall(&mut lab, WallEdit::Layer("z".into()));
-    watch(&mut lab, "a map of z", |app| app.wall().hung(Sight::View(0)).is_some_and(|h| h.map.is_some()));
+    watch(&mut lab, "a map of z", |app| {
+        app.wall().uploaded(PictureId::View(0)).is_some_and(|h| h.map.is_some())
+    });
     wall(&mut lab, WallEdit::Layer("picture".into()));
     // The others as the reference are named so; their noise is taken off, and is part of the ±.
     lab.run_steps(2);
@@ -255,7 +257,7 @@ fn nothing_is_measured_against_a_picture_without_samples() {
     std::thread::sleep(std::time::Duration::from_millis(400));
     lab.run_steps(3);
     // Its place is there, its numbers are not.
-    assert!(lab.state().wall().sights().contains(&Sight::Reference));
+    assert!(lab.state().wall().pictures_shown().contains(&PictureId::Reference));
     lab.get_by_label_contains("No reference yet");
     assert_eq!((labels(&lab, " 0 spp"), labels(&lab, "relMSE ")), (0, 0));
     assert!(lab.state().wall().analysis().standings.iter().all(|s| s.errors.is_empty()));
@@ -265,7 +267,7 @@ fn nothing_is_measured_against_a_picture_without_samples() {
     watch(&mut lab, "the reference's end", |app| reference(app) == Some(Status::Finished));
     let against = Against::Reference("Uni+NEE MIS, 400 spp".into());
     watch(&mut lab, "the last numbers", |app| {
-        let shown = app.wall().hung(Sight::Reference).and_then(|h| h.reference.as_ref());
+        let shown = app.wall().uploaded(PictureId::Reference).and_then(|h| h.reference.as_ref());
         app.wall().analysis().standings.iter().all(|s| s.against == against)
             && shown.is_some_and(|r| r.origin == "Uni+NEE MIS, 400 spp")
     });
@@ -335,7 +337,7 @@ fn a_path_is_that_of_the_scene_as_it_is_now() {
         lab.run_steps(2);
         let sample = lab.state().inspector().path.sample.expect("a sample");
         let probe = lab.state().wall().slots()[0].probe().expect("a scene");
-        let [r, g, b] = probe.samples((16, 9), sample..sample + 1, Wanted::ALWAYS)[0].rgb;
+        let [r, g, b] = probe.samples((16, 9), sample..sample + 1, CancelToken::NEVER)[0].rgb;
         before = format!("→  {r:.4} {g:.4} {b:.4}");
         assert_eq!(labels(&lab, &before), 1, "{before} is not the path that is shown");
     }

@@ -6,14 +6,14 @@ use egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
 use majorant::lab::Command;
 use majorant::model::Source;
-use majorant::view::developer::Sight;
+use majorant::view::tone_mapper::PictureId;
 use majorant::wall::WallEdit;
 use majorant::wall::dock::TABS;
 use majorant::wall::presets::PRESETS;
 use majorant_core::compare::{Against, Verdict, maps};
 use majorant_core::io::{Library, embedded, export, scene_file};
 use majorant_core::scene::{Arrangement, Fairness, Pair, ReferenceDoc, SceneDoc};
-use majorant_core::session::{Job, Role as Turn, Session, Status, ViewId};
+use majorant_core::session::{Job, Role as DirectionSample, Session, Status, ViewId};
 use std::sync::Arc;
 
 /// A tight majorant, one that is too low but weighted, and one that is clamped.
@@ -126,7 +126,7 @@ fn every_map_is_drawn_for_every_view() {
         click(&mut lab, Role::Button, map.name);
         wait(&mut lab, map.name, |app| {
             (0..3).all(|v| {
-                let print = app.wall().hung(Sight::View(v)).and_then(|h| h.map.as_ref());
+                let print = app.wall().uploaded(PictureId::View(v)).and_then(|h| h.map.as_ref());
                 print.is_some_and(|p| p.map.id == map.id && p.values.len() == 32 * 18)
             })
         });
@@ -135,7 +135,7 @@ fn every_map_is_drawn_for_every_view() {
     lab.key_press(Key::D);
     lab.run_steps(2);
     wait(&mut lab, "the difference", |app| {
-        app.wall().hung(Sight::Difference).is_some_and(|h| h.map.is_some())
+        app.wall().uploaded(PictureId::Difference).is_some_and(|h| h.map.is_some())
     });
 }
 
@@ -223,14 +223,14 @@ fn a_reference_is_rendered_beside_the_views_and_carries_its_noise() {
             .iter()
             .any(|s| matches!(s.against, Against::Reference(_)) && s.error("relmse").is_some())
     });
-    assert!(lab.state().wall().hung(Sight::Reference).is_some());
+    assert!(lab.state().wall().uploaded(PictureId::Reference).is_some());
 }
 
 /// Renders a scene and writes it where the window can find it.
 fn rendered(doc: &SceneDoc, path: &std::path::Path) {
     let (wake, woken) = std::sync::mpsc::channel();
     let session = Session::new(Library::default(), move || wake.send(()).unwrap_or(())).expect("threads");
-    let job = Job { doc: Arc::new(doc.clone()), preview: false, role: Turn::Contender };
+    let job = Job { doc: Arc::new(doc.clone()), preview: false, role: DirectionSample::Contender };
     session.submit(ViewId(1), job);
     while session.state(ViewId(1)).status != Status::Finished {
         woken.recv().expect("a session that lives");

@@ -4,7 +4,7 @@ use majorant_core::check::{Batches, Layout, Plan, stats};
 use majorant_core::estimator::{self, Settings};
 use majorant_core::io::{Library, scene_file};
 use majorant_core::scene::{Scene, SceneDoc, build};
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::path::Path;
 
 /// How a test scene begins that looks at the origin from outside, in 8 × 8 pixels.
@@ -35,7 +35,7 @@ pub fn mean(doc: &SceneDoc, estimator: &str, spp: u64) -> (f64, f64) {
     let settings = Settings::new(&doc.estimator, doc.render.seed);
     let plan =
         Plan { scene: &scene, kernel, settings: &settings, layout: Layout::WHOLE, first_sample: 0, spp };
-    let image = Batches::render(&plan, Wanted::ALWAYS).unwrap();
+    let image = Batches::render(&plan, CancelToken::NEVER).unwrap();
     assert_eq!(image.non_finite, None, "{estimator}");
     image.whole()
 }

@@ -8,7 +8,7 @@ use majorant_core::spectrum::{
     Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, RgbChannels, Sampled, WavelengthSampling,
     Wavelengths,
 };
-use majorant_core::transport::{Collision, Event, Trace, Wanted};
+use majorant_core::transport::{CancelToken, Collision, Event, Trace};
 use majorant_tests::chi2::Family;
 use std::f32::consts::FRAC_1_PI;
 
@@ -106,7 +106,7 @@ fn events_come_as_often_as_their_densities_say() {
             let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };
             let coefficients = Coefficients::new(extinction, albedo, &segment);
             let collision = Collision::new(Vec3::ZERO, coefficients, absorption.into());
-            let mut trace = Trace::new(Sampler::new(6, seed, 0), Wanted::ALWAYS);
+            let mut trace = Trace::new(Sampler::new(6, seed, 0), CancelToken::NEVER);
             let mut counts = [0; 3];
             for _ in 0..SAMPLES {
                 counts[match collision.draw_event(&mut trace) {

@@ -11,7 +11,7 @@ use majorant_core::math::{BoxRay, Ray, Sampler};
 use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
 use majorant_core::scene::{Absorption, DistanceSampling, Scene, build};
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
-use majorant_core::transport::{Event, EventRule, PathWeights, Trace, Walk, WalkWeights, Wanted};
+use majorant_core::transport::{CancelToken, Event, EventRule, PathWeights, Trace, Walk, WalkWeights};
 use majorant_tests::chi2::Family;
 
 const WALKS: u64 = 30_000;
@@ -55,7 +55,7 @@ fn fly<L: LocalMedium<N>, const N: usize>(
         let name = format!("{name}, {:?}, {:?}", rule.absorption, rule.distances);
         let (mut first, mut second, mut real) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..WALKS {
-            let mut trace = Trace::new(Sampler::new(9, i, stream as u64), Wanted::ALWAYS);
+            let mut trace = Trace::new(Sampler::new(9, i, stream as u64), CancelToken::NEVER);
             let mut walk = Walk::new(medium, scene, ray, t_max, rule);
             let mut weights = PathWeights::CAMERA;
             let mut before = Vec::new();

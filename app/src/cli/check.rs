@@ -4,7 +4,7 @@ use super::{Failure, print_line, progress, source};
 use majorant_core::check::{self, Answer, Case, Check, Effort, FAMILIES, Report, Row};
 use majorant_core::io::embedded;
 use majorant_core::scene::Mode;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::path::Path;
 
 #[derive(clap::Args, Debug)]
@@ -49,7 +49,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.json {
         print_line(&heading(width))?;
     }
-    let report = check.run(Wanted::ALWAYS, |p| {
+    let report = check.run(CancelToken::NEVER, |p| {
         bar.set_position(p.done as u64);
         bar.set_message(format!("{}  {}", p.scene, p.estimator));
         if !arguments.json && printed.is_ok() {

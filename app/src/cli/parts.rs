@@ -3,7 +3,7 @@
 use super::{Failure, print_line, source};
 use majorant_core::inspect::Split;
 use majorant_core::io::export;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
@@ -39,7 +39,7 @@ fn parse_split(text: &str) -> Result<Split, String> {
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let frozen = arguments.traced.frozen()?;
     let probe = frozen.probe(arguments.spp)?;
-    let parts = probe.strategies(arguments.by, 0..arguments.spp, Wanted::ALWAYS);
+    let parts = probe.strategies(arguments.by, 0..arguments.spp, CancelToken::NEVER);
     let Some(parts) = parts else { return Ok(()) };
     let shares = parts.variance_shares(|_, _| true);
     let share = |k: usize| shares.as_ref().map(|s| s[k]);

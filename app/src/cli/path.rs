@@ -5,7 +5,7 @@ use majorant_core::estimator::PathIndex;
 use majorant_core::inspect::{Ledger, Row};
 use majorant_core::session::Probe;
 use majorant_core::spectrum::Carried;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::fmt::Write;
 
 #[derive(clap::Args, Debug)]
@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let probe = frozen.probe(samples)?;
     let sample = arguments.sample.unwrap_or_else(|| brightest(&probe, (x, y), samples));
     let at = PathIndex { x, y, sample };
-    let recording = probe.record(at, Wanted::ALWAYS);
+    let recording = probe.record(at, CancelToken::NEVER);
     let ledger = Ledger::new(&recording);
     if arguments.json {
         return print_line(&json(&ledger, at, entry.id).to_string());
@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn brightest(probe: &Probe, (x, y): (u32, u32), of: u64) -> u64 {
-    let brightness = |sample: u64| probe.path(x, y, sample, Wanted::ALWAYS).rgb.element_sum();
+    let brightness = |sample: u64| probe.path(x, y, sample, CancelToken::NEVER).rgb.element_sum();
     let samples = (0..of).map(|sample| (sample, brightness(sample)));
     samples.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(sample, _)| sample)
 }

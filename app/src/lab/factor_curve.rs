@@ -3,7 +3,7 @@
 use majorant_core::bench::{FactorPoint, factor_curve};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -100,7 +100,7 @@ impl FactorCurve {
             };
             let point = |point| tell(News::Point(point));
             let done =
-                factor_curve("the scene", &resolved, Library::default(), Wanted::new(&theirs, 0), point);
+                factor_curve("the scene", &resolved, Library::default(), CancelToken::new(&theirs, 0), point);
             if let Err(error) = done {
                 tell(News::Failed(error.to_string()));
             }

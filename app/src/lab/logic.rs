@@ -5,8 +5,8 @@ use super::tasks::Outcome;
 use super::{Answer, Command, LabApp, Severity};
 use crate::model::{Document, Source, resolved};
 use crate::panels::faults;
-use crate::view::developer::Sight;
 use crate::view::image_view::ImageView;
+use crate::view::tone_mapper::PictureId;
 use crate::wall::presets::PRESETS;
 use crate::wall::{Tool, WallEdit, edited};
 use egui::{Context, ViewportCommand};
@@ -34,15 +34,16 @@ impl LabApp {
 
     /// Takes note of everything that happened since the last frame.
     pub(super) fn update(&mut self, ctx: &Context) {
-        let prints = self.developer.take();
+        let prints = self.tone_mapper.take();
         self.wall.update(ctx, &self.session, prints);
         self.read_selected();
-        self.shown = self.wall.hung(Sight::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
+        self.shown =
+            self.wall.uploaded(PictureId::View(self.wall.selected())).and_then(|h| h.snapshot.clone());
         self.latency.cancelled(self.state.generation, self.state.cancelled_seconds);
         if let Some(shown) = &self.shown {
             self.latency.shown(shown.generation);
         }
-        self.developer.order(self.wall.order());
+        self.tone_mapper.order(self.wall.order());
         self.self_check.poll();
         self.factor_curve.poll();
         while let Some(outcome) = self.tasks.take() {
@@ -189,7 +190,7 @@ impl LabApp {
             }
             Command::ToggleDock => *self.dock_shown() ^= true,
             Command::TryBeside(doc) => {
-                self.apply(Command::Wall(WallEdit::Beside(doc)));
+                self.apply(Command::Wall(WallEdit::SideStream(doc)));
                 self.apply(Command::ShowTab("ranking"));
             }
             Command::HoldAgainstRight => {
@@ -296,19 +297,19 @@ impl LabApp {
 
     /// Larger type is the interface's own zoom, which Ctrl + plus and minus change further.
     pub(super) fn apply_type_size(&mut self, ctx: &Context) {
-        let wanted = self.settings.zoom_factor();
-        if self.applied_zoom_factor != wanted {
-            self.applied_zoom_factor = wanted;
-            ctx.set_zoom_factor(wanted);
+        let cancel = self.settings.zoom_factor();
+        if self.applied_zoom_factor != cancel {
+            self.applied_zoom_factor = cancel;
+            ctx.set_zoom_factor(cancel);
         }
     }
 
     /// Shows the next view, or has the wall show one at a time.
     fn flip(&mut self) {
         if self.doc().compare.arrangement == Arrangement::Flip {
-            let sights = self.wall.sights();
-            self.wall.flipped = (self.wall.flipped + 1) % sights.len().max(1);
-            if let Some(Sight::View(view)) = sights.get(self.wall.flipped) {
+            let pictures_shown = self.wall.pictures_shown();
+            self.wall.flipped = (self.wall.flipped + 1) % pictures_shown.len().max(1);
+            if let Some(PictureId::View(view)) = pictures_shown.get(self.wall.flipped) {
                 self.wall.select(*view);
             }
         } else {
@@ -325,11 +326,11 @@ impl LabApp {
     /// Gives the session what changed, found by comparing documents.
     pub(super) fn submit_if_needed(&mut self) {
         let (doc, base) = (self.document.doc(), self.document.base());
-        let wanted = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
+        let cancel = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
         if let Some(slot) = self.wall.selected_slot() {
             self.latency.edited(self.session.state(slot.id).generation);
         }
-        if let Some(path) = wanted {
+        if let Some(path) = cancel {
             let library = majorant_core::io::Library::default().with_base(base);
             let read = self.tasks.read_reference(path, doc.clone(), library);
             if let Err(problem) = read {

@@ -43,7 +43,7 @@ use crate::lessons::{Lesson, Player};
 use crate::model::{Document, Settings, Source};
 use crate::screenshot::Screenshot;
 use crate::theme;
-use crate::view::developer::{Bell, Developer, Sight};
+use crate::view::tone_mapper::{PictureId, ToneMapper, Waker};
 use crate::wall::Wall;
 use crate::wall::inspector::Inspector;
 use dialogs::Dialog;
@@ -61,7 +61,7 @@ pub struct LabApp {
     document: Document,
     settings: Settings,
     // Dropped before the session, which it polls.
-    developer: Developer,
+    tone_mapper: ToneMapper,
     session: Arc<Session>,
     state: ViewState,
     stats: Stats,
@@ -70,7 +70,7 @@ pub struct LabApp {
     /// The picture of the selected view.
     shown: Option<Arc<Snapshot>>,
     /// The pixel under the pointer, with the picture that it is on.
-    pixel: Option<(Sight, [usize; 2])>,
+    pixel: Option<(PictureId, [usize; 2])>,
     zoom: f32,
     /// Where the pointer was when Tab was pressed decides whether it flips pictures or moves the focus.
     over_wall: bool,
@@ -128,13 +128,13 @@ impl LabApp {
             ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(size.into()));
         }
 
-        let bell = Bell::default();
-        let ring = bell.clone();
-        let session = Arc::new(Session::new(Library::default(), move || ring.ring())?);
+        let waker = Waker::default();
+        let wake = waker.clone();
+        let session = Arc::new(Session::new(Library::default(), move || wake.wake())?);
         let polled = Arc::clone(&session);
         let repaint = ctx.clone();
         let poll = Box::new(move |id: ViewId| polled.state(id).snapshot);
-        let developer = Developer::new(bell, poll, move || repaint.request_repaint())?;
+        let tone_mapper = ToneMapper::new(waker, poll, move || repaint.request_repaint())?;
         let repaint = ctx.clone();
         let wall = Wall::new(move || repaint.request_repaint())?;
         let repaint = ctx.clone();
@@ -144,7 +144,7 @@ impl LabApp {
             stats: Stats::default(),
             settings,
             session,
-            developer,
+            tone_mapper,
             wall,
             shown: None,
             pixel: None,
@@ -184,9 +184,9 @@ impl LabApp {
         Ok(app)
     }
 
-    fn open_first(&mut self, wanted: Option<&Source>) {
+    fn open_first(&mut self, cancel: Option<&Source>) {
         let first = Source::first();
-        match wanted {
+        match cancel {
             // A volume or a picture is put into the first scene.
             Some(Source::File(path)) if path.extension().is_none_or(|e| e != "toml") => {
                 self.open(&first);
@@ -288,7 +288,7 @@ impl eframe::App for LabApp {
         let started = Instant::now();
         // On a software rasteriser a frame costs tens of milliseconds: leave most of the machine to rendering.
         let frame_seconds = frame.info().cpu_usage.unwrap_or(0.0);
-        self.developer.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
+        self.tone_mapper.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
         self.update(ctx);
         self.logic_seconds = started.elapsed().as_secs_f64();
     }

@@ -3,8 +3,8 @@
 use super::LabApp;
 use super::stats::{count, duration};
 use crate::theme::Palette;
-use crate::view::developer::Sight;
 use crate::view::readout;
+use crate::view::tone_mapper::PictureId;
 use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui, vec2};
 use majorant_core::session::{Ending, Status};
 
@@ -22,7 +22,7 @@ impl LabApp {
                 ui.add(Label::new(RichText::new(view).color(palette.weak)).selectable(false))
                     .on_hover_text("Image size and zoom: F fits, 1 is 100 %, the wheel zooms");
                 ui.add_space(12.0);
-                let text = match self.pixel.and_then(|(sight, at)| self.pixel_text(sight, at)) {
+                let text = match self.pixel.and_then(|(picture, at)| self.pixel_text(picture, at)) {
                     Some(text) => RichText::new(text).monospace().color(palette.strong),
                     None => RichText::new("Drag orbits, wheel zooms, ? lists all keys").color(palette.weak),
                 };
@@ -34,11 +34,11 @@ impl LabApp {
     }
 
     /// The numbers of the pixel under the pointer.
-    fn pixel_text(&self, sight: Sight, at: [usize; 2]) -> Option<String> {
-        let hung = self.wall.hung(sight)?;
-        let snapshot = hung.snapshot.as_ref()?;
+    fn pixel_text(&self, picture: PictureId, at: [usize; 2]) -> Option<String> {
+        let uploaded = self.wall.uploaded(picture)?;
+        let snapshot = uploaded.snapshot.as_ref()?;
         let text = readout::describe(snapshot, at)?;
-        let map = hung.map.as_ref().and_then(|print| {
+        let map = uploaded.map.as_ref().and_then(|print| {
             let value = print.values.get(at[1] * snapshot.width + at[0])?;
             Some(format!("   {} {}", print.map.name, readout::short(*value)))
         });

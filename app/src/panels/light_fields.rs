@@ -76,7 +76,7 @@ fn geometry_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
             EnvironmentMap { rotate_deg: r0, .. },
         ) => {
             let turn = Value::of(key("lights.*.rotate_deg"), rotate_deg).defaulting_to(*r0).opened(*r1);
-            turn.within(-360.0..=360.0).speed(0.5).named(format!("{name} turn")).show(ui);
+            turn.within(-360.0..=360.0).speed(0.5).named(format!("{name} rotation")).show(ui);
         }
         _ => {}
     }

@@ -3,6 +3,6 @@
 pub mod camera_control;
 pub mod canvas;
 pub mod cells_overlay;
-pub mod developer;
 pub mod image_view;
 pub mod readout;
+pub mod tone_mapper;

@@ -5,7 +5,7 @@ use super::state::Wall;
 use crate::lab::Command;
 use crate::lab::stats::count;
 use crate::theme::{Palette, view_colour};
-use crate::view::developer::Sight;
+use crate::view::tone_mapper::PictureId;
 use egui::{
     Align, Color32, CornerRadius, FontId, Frame, Label, Layout, Margin, Rect, RichText, Ui, UiBuilder,
 };
@@ -98,12 +98,12 @@ pub(super) fn caption_ui(
     ui: &mut Ui,
     rect: Rect,
     wall: &Wall,
-    sight: Sight,
+    picture: PictureId,
     doc: &SceneDoc,
     commands: &mut Vec<Command>,
 ) {
     let palette = Palette::get(ui);
-    let selected = sight == Sight::View(wall.selected()) && doc.view_count() > 1;
+    let selected = picture == PictureId::View(wall.selected()) && doc.view_count() > 1;
     let fill = if selected { palette.accent_fill.gamma_multiply(0.8) } else { palette.bar };
     ui.painter().rect_filled(rect, 0.0, fill);
     let inner = rect.shrink2(egui::vec2(6.0, 0.0));
@@ -112,8 +112,8 @@ pub(super) fn caption_ui(
     let ui = &mut child;
     ui.spacing_mut().item_spacing.x = 6.0;
     let text = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).truncate().selectable(false));
-    match sight {
-        Sight::View(view) => {
+    match picture {
+        PictureId::View(view) => {
             chip(ui, &label(view), view_colour(view));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 ui.spacing_mut().item_spacing.x = 6.0;
@@ -126,15 +126,15 @@ pub(super) fn caption_ui(
                 });
             });
         }
-        Sight::Reference => {
+        PictureId::Reference => {
             chip(ui, "R", palette.weak);
             text(ui, RichText::new("Reference").color(palette.strong));
             // The samples of the picture below, not those of one that is still to be shown.
-            let hung = wall.hung(sight).and_then(|hung| hung.reference.as_ref());
-            let origin = hung.map_or_else(|| wall.reference_state().text, |r| r.origin.clone());
+            let uploaded = wall.uploaded(picture).and_then(|uploaded| uploaded.reference.as_ref());
+            let origin = uploaded.map_or_else(|| wall.reference_state().text, |r| r.origin.clone());
             text(ui, RichText::new(origin).small().color(palette.weak));
         }
-        Sight::Difference => {
+        PictureId::Difference => {
             let majorant_core::scene::Pair(a, b) = doc.compare.pair;
             chip(ui, &label(a), view_colour(a));
             text(ui, RichText::new("minus").color(palette.weak));
@@ -202,7 +202,7 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32)
     }
     // Beside numbers, those samples that they are about; else those of the picture below.
     let standing = analysis.standing(&label(view));
-    let picture = wall.hung(Sight::View(view)).and_then(|hung| hung.snapshot.as_ref());
+    let picture = wall.uploaded(PictureId::View(view)).and_then(|uploaded| uploaded.snapshot.as_ref());
     let current = wall.slots().get(view).map(|slot| slot.state.generation);
     let shown = picture.filter(|s| Some(s.generation) == current).map_or(0, |s| s.spp);
     let spp = standing.map_or(shown, |s| s.spp);

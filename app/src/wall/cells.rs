@@ -8,7 +8,7 @@ use crate::lab::Command;
 use crate::theme::Palette;
 use crate::view::canvas::{Outcome, Shown, canvas_ui};
 use crate::view::cells_overlay;
-use crate::view::developer::Sight;
+use crate::view::tone_mapper::PictureId;
 use crate::widgets::badge;
 use egui::{
     Align, Frame, Label, Layout, Margin, Rect, RichText, Stroke, StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2,
@@ -27,7 +27,7 @@ pub struct Seen {
     /// The camera of a view, if a gesture moved it.
     pub camera: Option<(usize, CameraDoc)>,
     /// The pixel under the pointer, and the sight that it is on.
-    pub pixel: Option<(Sight, [usize; 2])>,
+    pub pixel: Option<(PictureId, [usize; 2])>,
     /// Points per pixel.
     pub zoom: f32,
 }
@@ -37,8 +37,11 @@ impl Wall {
     pub fn cells_ui(&mut self, ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) -> Seen {
         let (mut rect, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
         ui.painter().rect_filled(rect, 0.0, Palette::get(ui).canvas);
-        let sights = self.sights();
-        let map = sights.iter().find_map(|s| self.hung(*s)?.map.clone()).filter(|_| self.map().is_some());
+        let pictures_shown = self.pictures_shown();
+        let map = pictures_shown
+            .iter()
+            .find_map(|s| self.uploaded(*s)?.map.clone())
+            .filter(|_| self.map().is_some());
         if let Some(print) = map {
             let strip = rect.with_min_y(rect.bottom() - legend::HEIGHT);
             legend_ui(ui, strip, &print);
@@ -48,14 +51,19 @@ impl Wall {
         match doc.compare.arrangement {
             Arrangement::Wipe if self.slots().len() > 1 => self.wipe_ui(ui, rect, doc, &mut seen, commands),
             Arrangement::Flip => {
-                let sight = sights.get(self.flipped % sights.len().max(1)).copied().unwrap_or(Sight::View(0));
-                self.cell_ui(ui, rect, sight, doc, &mut seen, commands);
+                let picture = pictures_shown
+                    .get(self.flipped % pictures_shown.len().max(1))
+                    .copied()
+                    .unwrap_or(PictureId::View(0));
+                self.cell_ui(ui, rect, picture, doc, &mut seen, commands);
             }
             _ => {
                 let aspect = doc.film.width as f32 / doc.film.height.max(1) as f32;
-                let captioned = sights.len() > 1;
-                for (cell, sight) in grid(rect, sights.len(), aspect, captioned).into_iter().zip(sights) {
-                    self.cell_ui(ui, cell, sight, doc, &mut seen, commands);
+                let captioned = pictures_shown.len() > 1;
+                for (cell, picture) in
+                    grid(rect, pictures_shown.len(), aspect, captioned).into_iter().zip(pictures_shown)
+                {
+                    self.cell_ui(ui, cell, picture, doc, &mut seen, commands);
                 }
             }
         }
@@ -66,20 +74,20 @@ impl Wall {
         &mut self,
         ui: &mut Ui,
         mut rect: Rect,
-        sight: Sight,
+        picture: PictureId,
         doc: &SceneDoc,
         seen: &mut Seen,
         commands: &mut Vec<Command>,
     ) {
         let whole = rect;
-        if doc.view_count() > 1 || sight != Sight::View(0) || self.sights().len() > 1 {
-            caption_ui(ui, rect.with_max_y(rect.top() + caption::HEIGHT), self, sight, doc, commands);
+        if doc.view_count() > 1 || picture != PictureId::View(0) || self.pictures_shown().len() > 1 {
+            caption_ui(ui, rect.with_max_y(rect.top() + caption::HEIGHT), self, picture, doc, commands);
             rect.min.y += caption::HEIGHT;
         }
-        let outcome = self.canvas(ui, rect, sight, None, doc);
-        self.take(outcome, sight, seen, commands);
-        self.remarks_ui(ui, rect, sight, doc);
-        if sight == Sight::View(self.selected()) && doc.view_count() > 1 {
+        let outcome = self.canvas(ui, rect, picture, None, doc);
+        self.take(outcome, picture, seen, commands);
+        self.remarks_ui(ui, rect, picture, doc);
+        if picture == PictureId::View(self.selected()) && doc.view_count() > 1 {
             let stroke = Stroke::new(1.5, Palette::get(ui).accent);
             ui.painter().rect_stroke(whole, 0.0, stroke, StrokeKind::Inside);
         }
@@ -96,14 +104,14 @@ impl Wall {
         let Pair(a, b) = doc.compare.pair;
         let middle = rect.center().x;
         let top = rect.with_max_y(rect.top() + caption::HEIGHT);
-        caption_ui(ui, top.with_max_x(middle - 1.0), self, Sight::View(a), doc, commands);
-        caption_ui(ui, top.with_min_x(middle + 1.0), self, Sight::View(b), doc, commands);
+        caption_ui(ui, top.with_max_x(middle - 1.0), self, PictureId::View(a), doc, commands);
+        caption_ui(ui, top.with_min_x(middle + 1.0), self, PictureId::View(b), doc, commands);
         rect.min.y += caption::HEIGHT;
-        let outcome = self.canvas(ui, rect, Sight::View(a), Some(Sight::View(b)), doc);
+        let outcome = self.canvas(ui, rect, PictureId::View(a), Some(PictureId::View(b)), doc);
         if let Some(split) = outcome.split {
             self.split = split;
         }
-        self.take(outcome, Sight::View(a), seen, commands);
+        self.take(outcome, PictureId::View(a), seen, commands);
         // Each picture says at its own side of the divider what it is.
         let x = egui::lerp(rect.x_range(), self.split);
         let mut side = |rect: Rect, layout: Layout, view: usize| {
@@ -129,41 +137,41 @@ impl Wall {
         &mut self,
         ui: &mut Ui,
         rect: Rect,
-        sight: Sight,
-        second: Option<Sight>,
+        picture: PictureId,
+        second: Option<PictureId>,
         doc: &SceneDoc,
     ) -> Outcome {
-        let view = match sight {
-            Sight::View(view) => view,
-            Sight::Reference | Sight::Difference => 0,
+        let view = match picture {
+            PictureId::View(view) => view,
+            PictureId::Reference | PictureId::Difference => 0,
         };
         let camera = doc.view_doc(view).map_or_else(|| doc.camera.clone(), |d| d.camera);
-        let display = self.display(sight);
-        let hung = self.hung(sight);
+        let display = self.display(picture);
+        let uploaded = self.uploaded(picture);
         let failed = matches!(self.slots().get(view).map(|s| &s.state.status), Some(Status::Failed(_)));
-        let name = match sight {
-            Sight::View(0) if doc.view_count() == 1 => "Rendered image".to_owned(),
-            Sight::View(view) => format!("View {}", label(view)),
-            Sight::Reference => "Reference".to_owned(),
-            Sight::Difference => "Difference".to_owned(),
+        let name = match picture {
+            PictureId::View(0) if doc.view_count() == 1 => "Rendered image".to_owned(),
+            PictureId::View(view) => format!("View {}", label(view)),
+            PictureId::Reference => "Reference".to_owned(),
+            PictureId::Difference => "Difference".to_owned(),
         };
         let shown = Shown {
-            texture: hung.map(|h| &h.texture),
-            snapshot: hung.and_then(|h| h.snapshot.as_deref()),
-            dimmed: failed && sight != Sight::Reference,
-            display: hung.is_some_and(|h| h.map.is_none()).then_some(&display),
-            wipe: second.map(|s| (self.hung(s).map(|h| &h.texture), self.split)),
+            texture: uploaded.map(|h| &h.texture),
+            snapshot: uploaded.and_then(|h| h.snapshot.as_deref()),
+            dimmed: failed && picture != PictureId::Reference,
+            display: uploaded.is_some_and(|h| h.map.is_none()).then_some(&display),
+            wipe: second.map(|s| (self.uploaded(s).map(|h| &h.texture), self.split)),
             region: doc.compare.region,
             picked: self.picked,
             draws_region: self.tool == Tool::Region,
             name: &name,
         };
         let film = vec2(doc.film.width as f32, doc.film.height as f32);
-        let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("cell", sight)));
+        let mut child = ui.new_child(UiBuilder::new().max_rect(rect).id_salt(("cell", picture)));
         child.set_clip_rect(rect.intersect(ui.clip_rect()));
-        let outcome = canvas_ui(&mut child, &shown, self.zoom_of(sight), &camera, film);
-        if let (Some(depth), Some(probe), Sight::View(_)) =
-            (self.majorant_slice, self.slots().get(view).and_then(|s| s.state.probe.as_ref()), sight)
+        let outcome = canvas_ui(&mut child, &shown, self.zoom_of(picture), &camera, film);
+        if let (Some(depth), Some(probe), PictureId::View(_)) =
+            (self.majorant_slice, self.slots().get(view).and_then(|s| s.state.probe.as_ref()), picture)
         {
             let eye = Camera::new(&camera, doc.film.width, doc.film.height);
             cells_overlay::paint(&child, rect, outcome.view, film, probe, &eye, depth);
@@ -171,13 +179,13 @@ impl Wall {
         outcome
     }
 
-    fn take(&mut self, outcome: Outcome, sight: Sight, seen: &mut Seen, commands: &mut Vec<Command>) {
-        if outcome.view != self.zoom_of(sight) {
-            self.set_zoom(sight, outcome.view);
+    fn take(&mut self, outcome: Outcome, picture: PictureId, seen: &mut Seen, commands: &mut Vec<Command>) {
+        if outcome.view != self.zoom_of(picture) {
+            self.set_zoom(picture, outcome.view);
         }
         seen.zoom = outcome.zoom;
         if let Some(pixel) = outcome.pixel {
-            seen.pixel = Some((sight, pixel));
+            seen.pixel = Some((picture, pixel));
         }
         if let Some(pixel) = outcome.clicked {
             self.picked = if self.picked == Some(pixel) { None } else { Some(pixel) };
@@ -186,7 +194,7 @@ impl Wall {
             commands.push(Command::Wall(WallEdit::Region(region)));
             self.tool = Tool::Camera;
         }
-        if let Sight::View(view) = sight {
+        if let PictureId::View(view) = picture {
             if outcome.touched {
                 commands.push(Command::SelectView(view));
             }
@@ -197,12 +205,12 @@ impl Wall {
     }
 
     /// What has to be known about a picture to read it rightly, in its corner.
-    fn remarks_ui(&self, ui: &mut Ui, canvas: Rect, sight: Sight, doc: &SceneDoc) {
+    fn remarks_ui(&self, ui: &mut Ui, canvas: Rect, picture: PictureId, doc: &SceneDoc) {
         let palette = Palette::get(ui);
         let area = Rect::from_min_size(canvas.min + vec2(10.0, 8.0), vec2(canvas.width() - 20.0, 22.0));
         let mut child =
             ui.new_child(UiBuilder::new().max_rect(area).layout(Layout::left_to_right(Align::Center)));
-        if sight == Sight::Reference && self.hung(sight).is_none() {
+        if picture == PictureId::Reference && self.uploaded(picture).is_none() {
             let state = self.reference_state();
             let text = state.problem.unwrap_or_else(|| {
                 let n = majorant_core::compare::LEAST_SAMPLES;
@@ -210,14 +218,14 @@ impl Wall {
             });
             return empty_ui(ui, canvas, "No reference yet", &text);
         }
-        if let Sight::View(view) = sight {
+        if let PictureId::View(view) = picture {
             let own = doc.view_doc(view);
             let bias = own.as_ref().and_then(|d| estimator::find(&d.estimator.id)?.bias(d));
             if let Some(reason) = bias {
                 badge(&mut child, palette.error, &format!("biased: {reason}"));
             }
-            let hung = self.hung(sight);
-            if hung.and_then(|h| h.snapshot.as_ref()).is_some_and(|s| s.coarse.is_some()) {
+            let uploaded = self.uploaded(picture);
+            if uploaded.and_then(|h| h.snapshot.as_ref()).is_some_and(|s| s.coarse.is_some()) {
                 badge(&mut child, palette.accent, "preview");
             }
             if let Some(Status::Failed(text)) = self.slots().get(view).map(|s| &s.state.status) {
@@ -225,16 +233,16 @@ impl Wall {
                 let said =
                     self.slots().iter().take(view).any(|s| s.state.status == Status::Failed(text.clone()));
                 if !said || doc.compare.arrangement != Arrangement::Grid {
-                    failure_ui(ui, canvas, text, hung.is_some());
+                    failure_ui(ui, canvas, text, uploaded.is_some());
                 }
                 return;
             }
         }
-        if let Some(map) = self.map().filter(|_| self.hung(sight).is_none_or(|h| h.map.is_none())) {
+        if let Some(map) = self.map().filter(|_| self.uploaded(picture).is_none_or(|h| h.map.is_none())) {
             let unchosen = doc.compare.reference == ReferenceDoc::None && !map.is_test();
-            let text = match (map.needs_reference, sight) {
-                (true, Sight::View(_)) if unchosen => "Errors need a reference: choose one above.",
-                (true, Sight::View(_)) => {
+            let text = match (map.needs_reference, picture) {
+                (true, PictureId::View(_)) if unchosen => "Errors need a reference: choose one above.",
+                (true, PictureId::View(_)) => {
                     "Nothing to hold this view against yet: choose a reference above, or add a view that shows the \
                      same image."
                 }

@@ -1,6 +1,6 @@
 //! Something that is worked out on a thread of its own for whoever asks last.
 
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -69,7 +69,7 @@ impl<Q: PartialEq + Clone, A: Send + Sync + 'static> Errand<Q, A> {
         &mut self,
         question: &Q,
         wake: impl FnOnce() + Send + 'static,
-        work: impl FnOnce(Wanted<'_>) -> Option<A> + Send + 'static,
+        work: impl FnOnce(CancelToken<'_>) -> Option<A> + Send + 'static,
     ) -> Option<(Arc<A>, bool)> {
         self.poll();
         let asked = self.running.as_ref().map(|r| &r.question).or(self.done.as_ref().map(|(q, _)| q));
@@ -107,13 +107,13 @@ impl<Q: PartialEq + Clone, A: Send + Sync + 'static> Errand<Q, A> {
         &mut self,
         question: Q,
         wake: impl FnOnce() + Send + 'static,
-        work: impl FnOnce(Wanted<'_>) -> Option<A> + Send + 'static,
+        work: impl FnOnce(CancelToken<'_>) -> Option<A> + Send + 'static,
     ) {
         let generation = Arc::new(AtomicU64::new(0));
         let theirs = Arc::clone(&generation);
         let (sender, answer) = channel();
         let run = move || {
-            if let Some(answer) = work(Wanted::new(&theirs, 0)) {
+            if let Some(answer) = work(CancelToken::new(&theirs, 0)) {
                 // The window may be gone by now; then nobody wants to know.
                 let _ = sender.send(answer);
             }
@@ -146,8 +146,8 @@ mod tests {
         let mut errand = Errand::default();
         assert_eq!(wait(&mut errand, 1), 2);
         // A question that takes for ever, until another one is asked.
-        let endless = |wanted: Wanted<'_>| {
-            while wanted.yes() {
+        let endless = |cancel: CancelToken<'_>| {
+            while cancel.is_active() {
                 std::thread::yield_now();
             }
             None

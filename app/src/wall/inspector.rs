@@ -87,7 +87,7 @@ pub struct PartsState {
     /// Samples per pixel, if they were chosen.
     pub spp: Option<u64>,
     /// Textures of the parts, and which answer they are of.
-    pub hung: Vec<egui::TextureHandle>,
+    pub uploaded: Vec<egui::TextureHandle>,
     /// The answer that hangs.
     pub hung_of: Option<Arc<Strategies>>,
     /// The exposure that it hangs in.

@@ -2,7 +2,7 @@
 
 use super::caption::digits;
 use crate::theme::Palette;
-use crate::view::developer::MapPrint;
+use crate::view::tone_mapper::MapImage;
 use egui::{Align2, Color32, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 
 /// Its height.
@@ -13,7 +13,7 @@ const WIDE: f32 = 760.0;
 const STEPS: usize = 128;
 
 /// Draws the colours with the values at their ends and between.
-pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapPrint) {
+pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
     let palette = Palette::get(ui);
     let response = ui.allocate_rect(rect, Sense::hover());
     let (map, range) = (print.map, print.range);

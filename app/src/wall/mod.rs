@@ -11,12 +11,12 @@
 //! | `slot.rs` | which view of the session renders which view of the document |
 //! | `edit.rs` | what a comparison can be asked to become |
 //! | `reference.rs` | what errors are measured against |
-//! | `analyst.rs`, `provenance.rs` | the numbers, and which pictures they describe |
+//! | `analysis.rs`, `provenance.rs` | the numbers, and which pictures they describe |
 //! | `bar.rs`, `cells.rs`, `caption.rs`, `legend.rs` | what is seen of it |
 //! | `dock/` | ranking, curves, the samples of a pixel, a scanline, a path, an image's parts; one tab a file |
 //! | `inspector.rs`, `errand.rs` | what tabs about single paths hold, and the threads that work it out |
 
-pub mod analyst;
+pub mod analysis;
 mod bar;
 mod caption;
 mod cells;

@@ -4,7 +4,7 @@
 //! submissions, the reference, the box and the baseline that it is about, and is left out as soon as one of these is
 //! another, in the same frame.
 
-use super::analyst::Analysis;
+use super::analysis::Analysis;
 use super::reference::ReferenceId;
 use majorant_core::compare::{Against, Standing, label};
 use majorant_core::scene::Pair;
@@ -29,8 +29,8 @@ impl Provenance {
         of(self).is_some() && of(self) == of(other)
     }
 
-    fn agree_on_label(&self, other: &Self, wanted: &str) -> bool {
-        (0..self.views.len()).any(|view| label(view) == wanted && self.agree_on(other, view))
+    fn agree_on_label(&self, other: &Self, cancel: &str) -> bool {
+        (0..self.views.len()).any(|view| label(view) == cancel && self.agree_on(other, view))
     }
 }
 

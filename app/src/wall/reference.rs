@@ -30,7 +30,7 @@ pub enum ReferenceId {
 
 /// See the [module](self).
 #[derive(Default)]
-pub struct ReferenceKeeper {
+pub struct ReferenceRenders {
     rendered: Option<Slot>,
     file: Option<FileReference>,
     /// What the newest picture was made from.
@@ -60,7 +60,7 @@ pub struct ReferenceState {
     pub progress: Option<f32>,
 }
 
-impl ReferenceKeeper {
+impl ReferenceRenders {
     /// Brings it in line with the document. Returns a file that has to be read.
     pub fn submit(
         &mut self,
@@ -70,9 +70,9 @@ impl ReferenceKeeper {
         (session, paused): (&Session, bool),
     ) -> Option<PathBuf> {
         match reference_doc(doc) {
-            Some(wanted) => {
+            Some(cancel) => {
                 let slot = self.rendered.get_or_insert_with(|| Slot::paused(BACKGROUND, session, paused));
-                slot.submit(&wanted, resolved, Role::Background, session);
+                slot.submit(&cancel, resolved, Role::Background, session);
             }
             None => {
                 if self.rendered.take().is_some() {

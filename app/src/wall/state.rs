@@ -2,14 +2,14 @@
 
 mod pictures;
 
-pub use pictures::Hung;
+pub use pictures::UploadedImage;
 
-use super::analyst::{Analysis, Analyst, KEPT, PickedPixel, Question};
+use super::analysis::{Analysis, AnalysisWorker, KEPT, PickedPixel, Question};
 use super::provenance::Provenance;
-use super::reference::{ReferenceKeeper, ReferenceState};
+use super::reference::{ReferenceRenders, ReferenceState};
 use super::slot::{Slot, assign};
-use crate::view::developer::{Order, OrderedView, Print, Sight};
 use crate::view::image_view::ImageView;
+use crate::view::tone_mapper::{Order, OrderedView, PictureId, ViewImage};
 use egui::Context;
 use majorant_core::compare::maps;
 use majorant_core::compare::{Experiment, Reference, View, label};
@@ -39,8 +39,8 @@ pub struct Wall {
     /// Whether everything has to start over.
     forgotten: bool,
     selected: usize,
-    reference: ReferenceKeeper,
-    analyst: Analyst,
+    reference: ReferenceRenders,
+    analysis_worker: AnalysisWorker,
     newest: Arc<Analysis>,
     /// The part of it that describes what is shown.
     analysis: Arc<Analysis>,
@@ -48,9 +48,9 @@ pub struct Wall {
     paused: bool,
     /// What the analyst was last asked about.
     asked: Option<Asked>,
-    hung: BTreeMap<Sight, Hung>,
+    uploaded: BTreeMap<PictureId, UploadedImage>,
     zoom: ImageView,
-    own_zoom: BTreeMap<Sight, ImageView>,
+    own_zoom: BTreeMap<PictureId, ImageView>,
     /// Where the divider of a wipe stands, as a share of the width.
     pub split: f32,
     /// Which sight a flip shows.
@@ -93,13 +93,13 @@ impl Wall {
             doc: Arc::default(),
             forgotten: true,
             selected: 0,
-            reference: ReferenceKeeper::default(),
-            analyst: Analyst::new(repaint)?,
+            reference: ReferenceRenders::default(),
+            analysis_worker: AnalysisWorker::new(repaint)?,
             newest: Arc::default(),
             analysis: Arc::default(),
             paused: false,
             asked: None,
-            hung: BTreeMap::new(),
+            uploaded: BTreeMap::new(),
             zoom: ImageView::FIT,
             own_zoom: BTreeMap::new(),
             split: 0.5,
@@ -122,9 +122,9 @@ impl Wall {
             return None;
         }
         (self.doc, self.forgotten) = (Arc::new(doc.clone()), false);
-        let wanted = doc.view_docs();
+        let cancel = doc.view_docs();
         let (next_id, paused) = (&mut self.next_id, self.paused);
-        let (slots, left) = assign(std::mem::take(&mut self.slots), &wanted, || {
+        let (slots, left) = assign(std::mem::take(&mut self.slots), &cancel, || {
             *next_id += 1;
             Slot::paused(ViewId(*next_id), session, paused)
         });
@@ -134,8 +134,8 @@ impl Wall {
             session.remove(gone.id);
         }
         session.set_fairness(doc.compare.fairness);
-        for (slot, wanted) in self.slots.iter_mut().zip(&wanted) {
-            slot.submit(wanted, &resolved, Role::Contender, session);
+        for (slot, cancel) in self.slots.iter_mut().zip(&cancel) {
+            slot.submit(cancel, &resolved, Role::Contender, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
         let file = self.reference.submit(doc, base, resolved, (session, self.paused));
@@ -174,19 +174,24 @@ impl Wall {
     }
 
     /// Takes note of what session and threads have done; `prints` are new pictures.
-    pub fn update(&mut self, ctx: &Context, session: &Session, prints: BTreeMap<Sight, Option<Print>>) {
+    pub fn update(
+        &mut self,
+        ctx: &Context,
+        session: &Session,
+        prints: BTreeMap<PictureId, Option<ViewImage>>,
+    ) {
         for slot in &mut self.slots {
             slot.update(session);
         }
-        for (sight, print) in prints {
+        for (picture, print) in prints {
             match print {
-                Some(print) => self.hang(ctx, sight, print),
-                None => drop(self.hung.remove(&sight)),
+                Some(print) => self.upload(ctx, picture, print),
+                None => drop(self.uploaded.remove(&picture)),
             }
         }
-        let sights = self.sights();
-        self.hung.retain(|sight, _| sights.contains(sight));
-        if let Some(analysis) = self.analyst.take() {
+        let pictures_shown = self.pictures_shown();
+        self.uploaded.retain(|picture, _| pictures_shown.contains(picture));
+        if let Some(analysis) = self.analysis_worker.take() {
             self.newest = analysis;
         }
         self.refresh(session);
@@ -225,7 +230,7 @@ impl Wall {
             views: self.slots.iter().map(|slot| Some(slot.state.generation)).collect(),
             ..self.provenance()
         };
-        self.analyst.ask(Question { of, experiment, pixel });
+        self.analysis_worker.ask(Question { of, experiment, pixel });
     }
 
     /// Whether the newest analysis has not yet traced all samples of the picked pixel.
@@ -255,18 +260,18 @@ impl Wall {
 
     /// Everything that the arrangement shows, in its order.
     #[must_use]
-    pub fn sights(&self) -> Vec<Sight> {
+    pub fn pictures_shown(&self) -> Vec<PictureId> {
         if self.doc.compare.arrangement == Arrangement::Difference && self.slots.len() > 1 {
-            return vec![Sight::Difference];
+            return vec![PictureId::Difference];
         }
-        let mut sights: Vec<Sight> = (0..self.slots.len()).map(Sight::View).collect();
+        let mut pictures_shown: Vec<PictureId> = (0..self.slots.len()).map(PictureId::View).collect();
         // A view that is the reference is on the wall already. Others have their place before they have a picture.
         let own =
             matches!(self.doc.compare.reference, ReferenceDoc::Render { .. } | ReferenceDoc::File { .. });
         if own && self.map().is_none() {
-            sights.push(Sight::Reference);
+            pictures_shown.push(PictureId::Reference);
         }
-        sights
+        pictures_shown
     }
 
     /// The map that is shown instead of the pictures.
@@ -288,10 +293,10 @@ impl Wall {
             id: slot.id,
             doc: Arc::clone(&slot.rendered),
         };
-        let sights = self.sights();
+        let pictures_shown = self.pictures_shown();
         let (pictures, maps) = match self.map() {
-            Some(map) => (Vec::new(), Some((map, sights))),
-            None => (sights.into_iter().map(|s| (s, self.display(s))).collect(), None),
+            Some(map) => (Vec::new(), Some((map, pictures_shown))),
+            None => (pictures_shown.into_iter().map(|s| (s, self.display(s))).collect(), None),
         };
         Order {
             doc: Arc::clone(&self.doc),
@@ -304,10 +309,10 @@ impl Wall {
 
     /// How a sight's radiance is shown.
     #[must_use]
-    pub fn display(&self, sight: Sight) -> ViewDoc {
-        let own = match sight {
-            Sight::View(view) => self.doc.view_doc(view).map(|d| d.view),
-            Sight::Reference | Sight::Difference => None,
+    pub fn display(&self, picture: PictureId) -> ViewDoc {
+        let own = match picture {
+            PictureId::View(view) => self.doc.view_doc(view).map(|d| d.view),
+            PictureId::Reference | PictureId::Difference => None,
         };
         own.unwrap_or_else(|| self.doc.view.clone())
     }
@@ -372,17 +377,17 @@ impl Wall {
 
     /// Pan and zoom of a sight.
     #[must_use]
-    pub fn zoom_of(&self, sight: Sight) -> ImageView {
+    pub fn zoom_of(&self, picture: PictureId) -> ImageView {
         match self.doc.compare.own_zoom {
-            true => self.own_zoom.get(&sight).copied().unwrap_or(self.zoom),
+            true => self.own_zoom.get(&picture).copied().unwrap_or(self.zoom),
             false => self.zoom,
         }
     }
 
     /// Pans and zooms a sight, and with it all others unless each has a zoom of its own.
-    pub fn set_zoom(&mut self, sight: Sight, view: ImageView) {
+    pub fn set_zoom(&mut self, picture: PictureId, view: ImageView) {
         if self.doc.compare.own_zoom {
-            self.own_zoom.insert(sight, view);
+            self.own_zoom.insert(picture, view);
         } else {
             self.zoom = view;
         }

@@ -8,7 +8,7 @@ use crate::check::{BATCHES, Batches, CheckError, Layout, Plan, own_scene};
 use crate::estimator::{self, Kernel, Settings};
 use crate::io::Library;
 use crate::scene::{Scene, SceneDoc, build};
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 
 /// The factors of a curve.
 pub const FACTORS: [f32; 10] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.26, 1.6, 2.5, 4.0, 8.0];
@@ -44,7 +44,7 @@ pub fn factor_curve(
     name: &str,
     doc: &SceneDoc,
     library: Library,
-    wanted: Wanted<'_>,
+    cancel: CancelToken<'_>,
     mut on_point: impl FnMut(FactorPoint),
 ) -> Result<Option<()>, CheckError> {
     let case = own_scene(name, doc, library);
@@ -56,7 +56,7 @@ pub fn factor_curve(
         let scene = build(&doc, &mut library)
             .map_err(|source| CheckError::Build { name: name.to_owned(), source })?;
         let settings = Settings::new(&doc.estimator, doc.render.seed.wrapping_add(seed));
-        Ok::<_, CheckError>(render(&scene, entry.kernel, &settings, paths, wanted))
+        Ok::<_, CheckError>(render(&scene, entry.kernel, &settings, paths, cancel))
     };
     let Some(reference) = picture(1.0, u64::MAX / 2, REFERENCE * PATHS, true)? else { return Ok(None) };
     let (truth, uncertainty) = reference.whole();
@@ -81,11 +81,11 @@ fn render(
     kernel: Kernel,
     settings: &Settings,
     paths: u64,
-    wanted: Wanted<'_>,
+    cancel: CancelToken<'_>,
 ) -> Option<Batches> {
     let per_sample = u64::from(scene.width) * u64::from(scene.height) * BATCHES as u64;
     let spp = paths.div_ceil(per_sample);
-    Batches::render(&Plan { scene, kernel, settings, layout: Layout::WHOLE, first_sample: 0, spp }, wanted)
+    Batches::render(&Plan { scene, kernel, settings, layout: Layout::WHOLE, first_sample: 0, spp }, cancel)
 }
 
 #[cfg(test)]
@@ -114,7 +114,7 @@ mod tests {
         );
         let mut points = Vec::new();
         let done =
-            factor_curve("curve", &doc.unwrap(), Library::default(), Wanted::ALWAYS, |p| points.push(p));
+            factor_curve("curve", &doc.unwrap(), Library::default(), CancelToken::NEVER, |p| points.push(p));
         assert_eq!(done.unwrap(), Some(()));
         points
     }

@@ -17,6 +17,6 @@ mod run;
 
 pub use csv::csv;
 pub use factor_curve::{FACTORS, FactorPoint, factor_curve};
-pub use plan::{Entrant, Plan, ReferencePlan, Subject};
+pub use plan::{Candidate, Plan, ReferencePlan, Subject};
 pub use row::{Interval, Row, Trial};
 pub use run::{BenchError, Progress, run};

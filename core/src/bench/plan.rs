@@ -16,14 +16,14 @@ pub struct Subject {
     /// Finds its files.
     pub library: Library,
     /// What is run on it, in order; ratios are relative to the first.
-    pub entrants: Vec<Entrant>,
+    pub entrants: Vec<Candidate>,
     /// What errors are measured against.
     pub reference: ReferencePlan,
 }
 
 /// An estimator with its settings.
 #[derive(Clone, Debug)]
-pub struct Entrant {
+pub struct Candidate {
     /// How its row is called.
     pub name: String,
     /// The estimator.
@@ -34,7 +34,7 @@ pub struct Entrant {
     pub own_bias: bool,
 }
 
-impl Entrant {
+impl Candidate {
     /// An estimator with a scene's own settings.
     #[must_use]
     pub fn of(entry: &'static Entry, doc: &SceneDoc) -> Self {

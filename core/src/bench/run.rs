@@ -1,6 +1,6 @@
 //! Runs a plan.
 
-use super::{Entrant, Plan, ReferencePlan, Row, Subject, Trial};
+use super::{Candidate, Plan, ReferencePlan, Row, Subject, Trial};
 use crate::compare::{Reference, unfit_document};
 use crate::estimator::{self, Entry};
 use crate::film::Images;
@@ -105,7 +105,7 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
     for subject in &plan.subjects {
         // What is biased on a scene has no efficiency there: its error does not fall with time.
         let unbiased = subject.entrants.iter().filter(|entrant| entrant.bias(&subject.doc).is_none());
-        let entrants: Vec<&Entrant> = unbiased.collect();
+        let entrants: Vec<&Candidate> = unbiased.collect();
         let runner = Runner::new(subject, &entrants, &pool)?;
         let mut report = |next: String, rows: &[Row]| {
             progress(&Progress { done, of, next, rows });
@@ -137,7 +137,7 @@ struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    fn new(subject: &'a Subject, unbiased: &[&Entrant], pool: &'a ThreadPool) -> Result<Self, BenchError> {
+    fn new(subject: &'a Subject, unbiased: &[&Candidate], pool: &'a ThreadPool) -> Result<Self, BenchError> {
         let scene = subject.name.clone();
         let biased = subject.entrants.first().and_then(|entrant| entrant.bias(&subject.doc));
         match biased.filter(|_| unbiased.is_empty()) {
@@ -199,7 +199,7 @@ impl<'a> Runner<'a> {
 
     fn trial(
         &self,
-        entrant: &Entrant,
+        entrant: &Candidate,
         repeat: u64,
         budget: Budget,
         reference: &Reference,
@@ -253,7 +253,7 @@ mod tests {
     fn subject(reference: ReferencePlan) -> Subject {
         let text = "majorant = 1\nfilm = { width = 4, height = 3 }\nrender = { seed = 5 }\nestimator = { id = \"nee\" }";
         let doc = scene_file::parse(text, "bench").unwrap();
-        let entrants = vec![Entrant::of(estimator::find("nee").unwrap(), &doc)];
+        let entrants = vec![Candidate::of(estimator::find("nee").unwrap(), &doc)];
         Subject { name: "bench".into(), doc, library: Library::default(), entrants, reference }
     }
 

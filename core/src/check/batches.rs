@@ -5,7 +5,7 @@ use crate::estimator::{Kernel, PathIndex, Settings};
 use crate::film::NonFinite;
 use crate::math::SamplerKind;
 use crate::scene::Scene;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use rayon::prelude::*;
 
 /// Independent repeats of every render.
@@ -84,9 +84,9 @@ pub struct Batches {
 impl Batches {
     /// Renders; `None` if it was cancelled.
     #[must_use]
-    pub fn render(plan: &Plan<'_>, wanted: Wanted<'_>) -> Option<Self> {
+    pub fn render(plan: &Plan<'_>, cancel: CancelToken<'_>) -> Option<Self> {
         let batches: Option<Vec<Batch>> =
-            (0..BATCHES as u64).into_par_iter().map(|b| batch(plan, b, wanted)).collect();
+            (0..BATCHES as u64).into_par_iter().map(|b| batch(plan, b, cancel)).collect();
         let batches = batches?;
         let count = plan.layout.comparisons();
         Some(Self {
@@ -136,7 +136,7 @@ struct Batch {
     non_finite: Option<NonFinite>,
 }
 
-fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
+fn batch(plan: &Plan<'_>, index: u64, cancel: CancelToken<'_>) -> Option<Batch> {
     let size = (plan.scene.width, plan.scene.height);
     let mut sums = vec![[0.0f64; 3]; plan.layout.blocks()];
     let mut counts = vec![0u64; plan.layout.blocks()];
@@ -152,7 +152,7 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
             let block = plan.layout.block((x, y), size);
             for sample in first..first + plan.spp {
                 let estimate =
-                    (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, wanted.into());
+                    (plan.kernel)(plan.scene, &settings, PathIndex { x, y, sample }, cancel.into());
                 done.paths += 1;
                 done.lookups += estimate.lookups;
                 done.exceeded += estimate.exceeded;
@@ -166,7 +166,7 @@ fn batch(plan: &Plan<'_>, index: u64, wanted: Wanted<'_>) -> Option<Batch> {
                 }
             }
             // The estimate of an unwanted path is meaningless.
-            if !wanted.yes() {
+            if !cancel.is_active() {
                 return None;
             }
         }

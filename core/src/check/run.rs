@@ -6,7 +6,7 @@ use super::stats::{critical_t, power_t};
 use super::{Answer, Batches, Case, CheckError, compare};
 use crate::estimator::{Entry, Settings};
 use crate::scene::Scene;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use std::time::Instant;
 
 /// How hard to look.
@@ -73,7 +73,7 @@ impl Check {
     /// When a scene cannot be frozen.
     pub fn run(
         &self,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
         mut on_progress: impl FnMut(Progress<'_>),
     ) -> Result<Option<Report>, CheckError> {
         let began = Instant::now();
@@ -92,7 +92,7 @@ impl Check {
             for entry in &estimators {
                 let progress = Progress { done, total, scene: &case.name, estimator: entry.id, rows: &[] };
                 on_progress(progress);
-                let Some(image) = self.measure(case, &scene, entry, critical, wanted) else {
+                let Some(image) = self.measure(case, &scene, entry, critical, cancel) else {
                     return Ok(None);
                 };
                 done += 1;
@@ -122,7 +122,7 @@ impl Check {
         scene: &Scene,
         entry: &Entry,
         critical: f64,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Batches> {
         let settings = Settings::new(&case.doc.estimator, seed(case.doc.render.seed, &case.name, entry.id));
         let per_sample = u64::from(scene.width) * u64::from(scene.height) * BATCHES as u64;
@@ -136,7 +136,7 @@ impl Check {
             spp: pilot_spp,
         };
         let began = Instant::now();
-        let pilot = Batches::render(&plan, wanted)?;
+        let pilot = Batches::render(&plan, cancel)?;
         let per_spp = began.elapsed().as_secs_f64() / pilot_spp as f64;
 
         // Where nobody knows the answer, the others that it is held against have noise as well.
@@ -163,7 +163,7 @@ impl Check {
                 Some(image) if wish <= have => return Some(image),
                 before => {
                     let spp = wish - have;
-                    let more = Batches::render(&Plan { first_sample, spp, ..plan }, wanted)?;
+                    let more = Batches::render(&Plan { first_sample, spp, ..plan }, cancel)?;
                     first_sample += BATCHES as u64 * spp;
                     image = Some(before.map_or(more.clone(), |b| b.merged(&more)));
                 }

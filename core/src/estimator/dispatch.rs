@@ -7,7 +7,7 @@ use crate::medium::{AnyMedium, Medium, SharedMajorant};
 use crate::scene::{EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, Radiance, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transmittance::TransmittanceKind;
-use crate::transport::{Company, Note, PathSettings, Trace, World};
+use crate::transport::{Note, PathContext, PathSettings, Trace, World};
 use glam::{Vec2, Vec3};
 
 /// Which path of an image.
@@ -22,7 +22,8 @@ pub struct PathIndex {
 }
 
 /// Traces one path. The estimate of a path that is not wanted any more is meaningless.
-pub type Kernel = fn(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate;
+pub type Kernel =
+    fn(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate;
 
 /// Everything besides the scene that an estimate depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,16 +87,16 @@ pub(super) fn family<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     let s = &s.limited_to::<E>();
     // What leaves components out, leaves the noise of their choice in.
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
-        (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, company),
-        (Mode::Spectral, true) => in_grey_medium::<E, Grey<true>>(scene, s, at, company),
-        (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, company),
-        (Mode::Rgb, true) => in_grey_medium::<E, Grey<false>>(scene, s, at, company),
+        (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, context),
+        (Mode::Spectral, true) => in_grey_medium::<E, Grey<true>>(scene, s, at, context),
+        (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
+        (Mode::Rgb, true) => in_grey_medium::<E, Grey<false>>(scene, s, at, context),
     }
 }
 
@@ -104,12 +105,12 @@ pub(super) fn single<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     let s = &s.limited_to::<E>();
     match s.mode {
-        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, company),
-        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, company),
+        Mode::Spectral => in_medium::<E, Wavelengths<1>, 1>(scene, s, at, context),
+        Mode::Rgb => in_medium::<E, RgbChannels<1>, 1>(scene, s, at, context),
     }
 }
 
@@ -117,12 +118,12 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, company),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, company),
-        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, company),
+        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, context),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, context),
+        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, context),
     }
 }
 
@@ -131,12 +132,12 @@ fn in_grey_medium<E: Estimator, C: Components<1>>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, 1>(m, scene, s, at, company),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, 1>(m, scene, s, at, company),
-        AnyMedium::RgbGrids(_) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, company),
+        AnyMedium::Homogeneous(m) => path::<E, _, C, 1>(m, scene, s, at, context),
+        AnyMedium::DensityGrid(m) => path::<E, _, C, 1>(m, scene, s, at, context),
+        AnyMedium::RgbGrids(_) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
     }
 }
 
@@ -145,10 +146,10 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     scene: &Scene,
     settings: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     let pixel = u64::from(at.y) * u64::from(scene.width) + u64::from(at.x);
-    let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), company);
+    let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), context);
     let (jitter, u) = trace.sampler.camera();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
     let components = C::sample(u, settings.wavelengths);
@@ -171,7 +172,7 @@ mod tests {
     use crate::estimator::find;
     use crate::io::{Library, scene_file};
     use crate::scene::build;
-    use crate::transport::Wanted;
+    use crate::transport::CancelToken;
 
     /// Six by four pixels whose right half looks at a light.
     fn half_lit() -> (Scene, Settings) {
@@ -203,7 +204,7 @@ mod tests {
         for (x, y, sample) in (0..6).flat_map(|x| (0..4).flat_map(move |y| (0..8).map(move |s| (x, y, s)))) {
             let at = PathIndex { x, y, sample };
             let kernel = find("spectral-mis").unwrap().kernel;
-            let seen = kernel(&scene, &settings, at, Wanted::ALWAYS.into()).rgb.element_sum();
+            let seen = kernel(&scene, &settings, at, CancelToken::NEVER.into()).rgb.element_sum();
             assert_eq!(seen > 0.0, x >= 3, "{at:?}");
         }
     }
@@ -216,7 +217,7 @@ mod tests {
         let channels = |x, y| -> Vec<Vec3> {
             (0..32)
                 .map(|sample| {
-                    kernel(&scene, &settings, PathIndex { x, y, sample }, Wanted::ALWAYS.into()).rgb
+                    kernel(&scene, &settings, PathIndex { x, y, sample }, CancelToken::NEVER.into()).rgb
                 })
                 .collect()
         };

@@ -16,7 +16,7 @@
 //! a small light close by.
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
-use crate::math::{Beside, Ray};
+use crate::math::{Ray, SideStream};
 use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
@@ -62,9 +62,9 @@ impl Estimator for EquiangularMis {
             if let Some(passage) = &passage
                 && vertices + 1 < world.settings.max_depth
             {
-                trace.tell(move || Note::ByAngle);
+                trace.tell(move || Note::EquiangularVertex);
                 radiance += by_angle(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
-                trace.tell(move || Note::ByAngleEnds);
+                trace.tell(move || Note::EquiangularVertexEnds);
             }
 
             // Fly to the next real event; the weights follow every null collision.
@@ -110,9 +110,9 @@ impl Estimator for EquiangularMis {
             }
             if let Some(aim) = world.aim(&vertex, trace) {
                 let densities = reached.light_densities(world, aim.light, vertex.point(), aim.density);
-                let link = path.connect(&aim.turn, densities);
+                let link = path.connect(&aim.outgoing, densities);
                 if let Some(link) = world.arrive(&aim, link, trace) {
-                    let (other, value) = (aim.turn.density, link.connected(aim.radiance, heuristics));
+                    let (other, value) = (aim.outgoing.density, link.connected(aim.radiance, heuristics));
                     radiance += world.record(Technique::Connection, (aim.radiance, other), value, trace);
                 }
             }
@@ -132,7 +132,7 @@ fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     path: EquiangularWeights<N>,
     trace: &mut Trace<'_>,
 ) -> Option<C::Radiance> {
-    trace.start_beside(Beside::EquiangularVertex);
+    trace.start_side_stream(SideStream::EquiangularVertex);
     let (from, by) = (passage.ray.origin, world.settings.lights);
     let choice = &world.scene.light_choice;
     let (light, probability) = choice.choose(from, trace.connection.next_1d(), by)?;
@@ -145,8 +145,8 @@ fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let vertex = world.scattering_vertex(collision.point, &passage.ray);
     let aim = world.aim_at(&vertex, light, trace.connection.next_2d())?;
     let nee = aim.density * choice.probability(light, collision.point, by);
-    let link = link.connect_by_angle(&aim.turn, LightDensities { nee, eq: aim.density });
+    let link = link.connect_by_angle(&aim.outgoing, LightDensities { nee, eq: aim.density });
     let link = world.arrive(&aim, link, trace)?;
     let value = link.connected_by_angle(aim.radiance, world.settings.heuristics);
-    Some(world.record(Technique::Angle, (aim.radiance, aim.turn.density), value, trace))
+    Some(world.record(Technique::Equiangular, (aim.radiance, aim.outgoing.density), value, trace))
 }

@@ -21,11 +21,11 @@ use super::{
     Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, biased_transmittance,
     clamped_majorant, dispatch, is_uniform,
 };
-use crate::math::{Beside, Ray};
+use crate::math::{Ray, SideStream};
 use crate::medium::{AnyMedium, LocalMedium};
 use crate::scene::{Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance, Sampled};
-use crate::transport::{Company, Kept, Note, Technique, Trace, World};
+use crate::transport::{Note, PathContext, Technique, Trace, WeightRecord, World};
 
 const USES: &[Axis] = &[Axis::Lights, Axis::LightSampling, Axis::Transmittance];
 
@@ -62,11 +62,11 @@ fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
         .or_else(|| biased_transmittance(doc))
 }
 
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     if matches!(scene.medium, AnyMedium::Homogeneous(_)) || scene.achromatic {
-        dispatch::family::<Mitsuba2Volpath>(scene, settings, at, company)
+        dispatch::family::<Mitsuba2Volpath>(scene, settings, at, context)
     } else {
-        dispatch::single::<Mitsuba2Volpath>(scene, settings, at, company)
+        dispatch::single::<Mitsuba2Volpath>(scene, settings, at, context)
     }
 }
 
@@ -83,12 +83,12 @@ impl Estimator for Mitsuba2Volpath {
         let mut radiance = C::Radiance::BLACK;
         let mut phi = Sampled::ONE;
         let mut vertices = 0;
-        trace.tell(move || Note::Weights(Kept::throughput(phi)));
+        trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
         loop {
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.sample_distance(&ray, surface.t(), trace);
             phi *= flight.weight;
-            trace.tell(move || Note::Weights(Kept::throughput(phi)));
+            trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
 
             let vertex = if let Some(point) = flight.scattered_at {
                 world.scattering_vertex(point, &ray)
@@ -108,35 +108,35 @@ impl Estimator for Mitsuba2Volpath {
             };
 
             vertices += 1;
-            trace.tell(move || Note::Vertex(Kept::throughput(phi)));
+            trace.tell(move || Note::Vertex(WeightRecord::throughput(phi)));
             if vertices >= world.settings.max_depth || phi.is_zero() || trace.must_stop() {
                 return radiance;
             }
 
             // A direction drawn towards a light.
             if let Some(aim) = world.aim(&vertex, trace) {
-                let (p_e, p_p) = (aim.density, aim.turn.density);
-                let weight = aim.turn.value * p_e / (p_e * p_e + p_p * p_p);
+                let (p_e, p_p) = (aim.density, aim.outgoing.density);
+                let weight = aim.outgoing.value * p_e / (p_e * p_e + p_p * p_p);
                 let value = aim.radiance * (phi * world.transmittance_to(&aim, trace) * weight);
                 radiance += world.record(Technique::Connection, (aim.radiance, p_p), value, trace);
             }
 
             // The direction in which the path goes on.
-            let turn = world.draw_turn(&vertex, trace);
-            ray = Ray { origin: vertex.point(), direction: turn.direction };
+            let outgoing = world.sample_outgoing(&vertex, trace);
+            ray = Ray { origin: vertex.point(), direction: outgoing.direction };
             let end = world.nearest_surface(&ray, false);
             for light in world.arrivals(&ray, &end, false) {
                 let p_e = world.aim_density(&vertex, light.index, ray.direction, end.t());
-                let p_p = turn.density;
-                let weight = turn.value * p_p / (p_p * p_p + p_e * p_e);
+                let p_p = outgoing.density;
+                let weight = outgoing.value * p_p / (p_p * p_p + p_e * p_e);
                 trace.tell(move || Note::LightWalk);
-                trace.start_beside(Beside::LightWalk);
+                trace.start_side_stream(SideStream::LightWalk);
                 let value = light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
                 radiance += world.record(Technique::Walk, (light.radiance, p_e), value, trace);
                 trace.tell(move || Note::LightWalkEnds);
             }
-            phi *= turn.value / turn.density;
-            trace.tell(move || Note::Weights(Kept::throughput(phi)));
+            phi *= outgoing.value / outgoing.density;
+            trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
 
             if vertices >= world.settings.first_roulette() {
                 let q = phi.max_component().clamp(0.05, 1.0);
@@ -146,7 +146,7 @@ impl Estimator for Mitsuba2Volpath {
                     return radiance;
                 }
                 phi *= 1.0 / q;
-                trace.tell(move || Note::Weights(Kept::throughput(phi)));
+                trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
             }
         }
     }

@@ -15,13 +15,13 @@
 //! look-ups per path; relMSE what the other estimators' files are relative to.
 
 use super::{Axis, Entry, Estimator, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
-use crate::math::{Beside, Ray};
+use crate::math::{Ray, SideStream};
 use crate::medium::LocalMedium;
 use crate::scene::{Bookkeeping, Fault, LightWalk, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
-    ApartF32, ApartF64, Books, Company, Event, Faulty, FlightEnd, Note, Pairwise, Rescaled, Technique, Trace,
-    Vertex, WalkWeights, Weights, World, hero_event,
+    ApartF32, ApartF64, Event, Faulty, FlightEnd, Note, Pairwise, PathContext, Rescaled, Technique, Trace,
+    Vertex, WalkWeights, WeightForm, Weights, World, hero_event,
 };
 use std::marker::PhantomData;
 
@@ -59,7 +59,7 @@ fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
 }
 
 /// One kernel for every way to keep the books.
-fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_>) -> PathEstimate {
+fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     let kernel = match settings.path.bookkeeping {
         _ if settings.path.fault != Fault::None => dispatch::family::<UniNeeMis<Faulty>>,
         Bookkeeping::Rescaled => dispatch::family::<UniNeeMis<Rescaled>>,
@@ -67,12 +67,12 @@ fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, company: Company<'_
         Bookkeeping::ApartF64 => dispatch::family::<UniNeeMis<ApartF64>>,
         Bookkeeping::Pairwise => dispatch::family::<UniNeeMis<Pairwise>>,
     };
-    kernel(scene, settings, at, company)
+    kernel(scene, settings, at, context)
 }
 
 struct UniNeeMis<B>(PhantomData<B>);
 
-impl<B: Books> Estimator for UniNeeMis<B> {
+impl<B: WeightForm> Estimator for UniNeeMis<B> {
     const USES: &'static [Axis] = USES;
 
     fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
@@ -118,7 +118,7 @@ impl<B: Books> Estimator for UniNeeMis<B> {
             }
             if let Some(link) = world.connect(&vertex, &path, trace) {
                 let value = link.weights.connected_combined(link.radiance, heuristics);
-                let other = link.turn.density;
+                let other = link.outgoing.density;
                 radiance += world.record(Technique::Connection, (link.radiance, other), value, trace);
             }
             if !world.survives_roulette(vertices, &mut path, trace) {
@@ -143,7 +143,7 @@ fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N:
     trace: &mut Trace<'_>,
 ) {
     trace.tell(move || Note::LightWalk);
-    trace.start_beside(Beside::LightWalk);
+    trace.start_side_stream(SideStream::LightWalk);
     let surface = world.nearest_surface(ray, false);
     let mut walk = world.walk_to_light(ray, surface.t());
     while let Some(collision) = walk.next_collision(trace, &mut path) {

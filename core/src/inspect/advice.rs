@@ -8,7 +8,7 @@ use crate::math::SamplerKind;
 use crate::phase::Phase;
 use crate::scene::{Absorption, DirectionSampling, LightSampling, LightSelection, Mode, SceneDoc};
 use crate::spectrum::WavelengthSampling;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 
 /// The share of each part in the variance of one sample, largest first.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,15 +34,15 @@ impl Evidence {
     /// Takes the samples of a plan apart in every way, and weighs them; `None` if there is no variance, or it was
     /// called off.
     #[must_use]
-    pub fn measure(plan: &StrategyPlan<'_>, chroma: Option<f64>, wanted: Wanted<'_>) -> Option<Self> {
+    pub fn measure(plan: &StrategyPlan<'_>, chroma: Option<f64>, cancel: CancelToken<'_>) -> Option<Self> {
         let mut shares = Vec::new();
-        for split in Strategies::render_all(plan, &Split::ALL, wanted)? {
+        for split in Strategies::render_all(plan, &Split::ALL, cancel)? {
             let of = split.variance_shares(|_, _| true)?;
             let mut parts: Vec<_> = split.layers.into_iter().map(|layer| layer.name).zip(of).collect();
             parts.sort_by(|a, b| b.1.total_cmp(&a.1));
             shares.push(Shares { split: split.split, parts });
         }
-        Some(Self { shares, chroma, heaviest: Heaviest::measure(plan, wanted)? })
+        Some(Self { shares, chroma, heaviest: Heaviest::measure(plan, cancel)? })
     }
 
     /// The share of a part, by its name; zero if there is none.

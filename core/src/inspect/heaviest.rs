@@ -6,7 +6,7 @@
 
 use super::{Split, StrategyPlan, strategies::main_layer};
 use crate::estimator::PathIndex;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -42,14 +42,14 @@ pub struct Heaviest {
 impl Heaviest {
     /// Traces the paths of a plan and weighs them; `None` if there is no variance, or it was called off.
     #[must_use]
-    pub fn measure(plan: &StrategyPlan<'_>, wanted: Wanted<'_>) -> Option<Self> {
+    pub fn measure(plan: &StrategyPlan<'_>, cancel: CancelToken<'_>) -> Option<Self> {
         let (width, height) = plan.size();
         let rows: Option<Vec<Vec<Weighed>>> = (0..height)
             .into_par_iter()
             .map(|row| {
                 let mut weighed = Vec::with_capacity(width * plan.spp());
                 for column in 0..width {
-                    weigh(plan, plan.pixel(column, row), wanted, &mut weighed)?;
+                    weigh(plan, plan.pixel(column, row), cancel, &mut weighed)?;
                 }
                 Some(weighed)
             })
@@ -102,12 +102,17 @@ struct Weighed {
 }
 
 /// The samples of one pixel.
-fn weigh(plan: &StrategyPlan<'_>, [x, y]: [u32; 2], wanted: Wanted<'_>, to: &mut Vec<Weighed>) -> Option<()> {
+fn weigh(
+    plan: &StrategyPlan<'_>,
+    [x, y]: [u32; 2],
+    cancel: CancelToken<'_>,
+    to: &mut Vec<Weighed>,
+) -> Option<()> {
     let mut samples = Vec::with_capacity(plan.spp());
     for sample in plan.samples.0..plan.samples.1 {
         let at = PathIndex { x, y, sample };
-        let estimate = plan.trace(at, wanted.into());
-        if !wanted.yes() {
+        let estimate = plan.trace(at, cancel.into());
+        if !cancel.is_active() {
             return None;
         }
         if estimate.rgb.is_finite() {
@@ -141,7 +146,7 @@ mod tests {
         let measured = |id: &str| {
             let kernel = find(id).unwrap().kernel;
             let plan = StrategyPlan::whole(&scene, kernel, &settings, (0, 16));
-            Heaviest::measure(&plan, Wanted::ALWAYS).unwrap()
+            Heaviest::measure(&plan, CancelToken::NEVER).unwrap()
         };
         let [walks, both] = ["spectral-mis", "uni-nee-mis"].map(measured);
         assert_eq!(walks.samples, 48 * 36 * 16);
@@ -158,9 +163,9 @@ mod tests {
             ..StrategyPlan::whole(&scene, kernel, &settings, (0, 16))
         };
         let mut weighed = Vec::new();
-        weigh(&pixel, [24, 18], Wanted::ALWAYS, &mut weighed).unwrap();
+        weigh(&pixel, [24, 18], CancelToken::NEVER, &mut weighed).unwrap();
         let sum: f64 = weighed.iter().map(|w| f64::from(w.weight)).sum();
-        let parts = crate::inspect::Strategies::render(&pixel, Split::Technique, Wanted::ALWAYS).unwrap();
+        let parts = crate::inspect::Strategies::render(&pixel, Split::Technique, CancelToken::NEVER).unwrap();
         let variance: f64 = parts.layers.iter().map(|layer| f64::from(layer.covariance[0])).sum();
         assert!((sum / 15.0 - variance).abs() < 1e-5 * variance, "{sum} {variance}");
         assert!(walks.named.iter().all(|heavy| (heavy.at.x < 48) && (heavy.at.y < 36)));

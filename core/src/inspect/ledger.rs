@@ -10,12 +10,12 @@
 //! Beside them stand the numbers that the estimator keeps itself, rescaled or not, as they are after the same event.
 
 use super::Recording;
-use super::books::Books;
+use super::path_densities::PathDensities;
 use super::product::{Product, times};
 use super::step::{Branch, Step};
 use crate::scene::Heuristics;
 use crate::spectrum::{Carried, Lanes};
-use crate::transport::{Event, Found, Kept, Note, Technique};
+use crate::transport::{CollisionRecord, Event, Note, Technique, WeightRecord};
 use glam::Vec3;
 
 /// Light that is added to the estimate.
@@ -51,7 +51,7 @@ pub struct Row {
     /// The random numbers that have decided it.
     pub numbers: Vec<f32>,
     /// The medium there.
-    pub found: Option<Found>,
+    pub found: Option<CollisionRecord>,
     /// What the path contributes.
     pub f: [Product; 4],
     /// How likely unidirectional sampling makes it.
@@ -61,7 +61,7 @@ pub struct Row {
     pub nee: [Product; 4],
     /// The numbers that the estimator keeps of this branch, after the event; `None` where it keeps none, as of a
     /// connection whose weight has no density.
-    pub kept: Option<Kept>,
+    pub kept: Option<WeightRecord>,
     /// Light that is added.
     pub credit: Option<Credit>,
 }
@@ -81,16 +81,16 @@ pub struct Ledger {
 
 /// The books of all branches of a path while its notes are read.
 struct Bookkeeper {
-    path: Books,
-    link: Option<Books>,
-    walk: Option<Books>,
-    by_angle: Option<Books>,
+    path: PathDensities,
+    link: Option<PathDensities>,
+    walk: Option<PathDensities>,
+    by_angle: Option<PathDensities>,
     /// As they were where the path's ray begins.
-    ray: Books,
+    ray: PathDensities,
     carried: Carried,
     /// Whether light is shared by the balance heuristics, whose result can be written down.
     balanced: bool,
-    found: Option<Found>,
+    found: Option<CollisionRecord>,
     /// The first row of the path's last ray.
     ray_row: usize,
     rows: Vec<Row>,
@@ -100,12 +100,12 @@ impl Ledger {
     /// The books of a recorded path.
     #[must_use]
     pub fn new(recording: &Recording) -> Self {
-        let mut keeper = Bookkeeper {
-            path: Books::CAMERA,
+        let mut bookkeeper = Bookkeeper {
+            path: PathDensities::CAMERA,
             link: None,
             walk: None,
             by_angle: None,
-            ray: Books::CAMERA,
+            ray: PathDensities::CAMERA,
             carried: Carried::Grey,
             balanced: recording.settings.path.heuristics == Heuristics::default(),
             found: None,
@@ -117,9 +117,9 @@ impl Ledger {
             if let Note::End { sum: all, film: rgb } = note {
                 (sum, film) = (*all, *rgb);
             }
-            keeper.read(i, note);
+            bookkeeper.read(i, note);
         }
-        Self { carried: keeper.carried, rows: keeper.rows, sum, film }
+        Self { carried: bookkeeper.carried, rows: bookkeeper.rows, sum, film }
     }
 
     /// Light that is added, in order.
@@ -146,12 +146,12 @@ impl Bookkeeper {
     }
 
     /// The books of the branch at hand.
-    fn now(&mut self) -> &mut Books {
+    fn now(&mut self) -> &mut PathDensities {
         self.link.as_mut().or(self.walk.as_mut()).or(self.by_angle.as_mut()).unwrap_or(&mut self.path)
     }
 
     fn row(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
-        let (branch, books) = (self.branch(), *self.now());
+        let (branch, densities) = (self.branch(), *self.now());
         self.rows.push(Row {
             note,
             branch,
@@ -159,10 +159,10 @@ impl Bookkeeper {
             point,
             numbers: numbers.to_vec(),
             found: None,
-            f: books.f,
-            uni: books.uni,
-            nee: books.nee,
-            kept: books.kept,
+            f: densities.f,
+            uni: densities.uni,
+            nee: densities.nee,
+            kept: densities.kept,
             credit: None,
         });
         let last = self.rows.len() - 1;
@@ -172,16 +172,16 @@ impl Bookkeeper {
     /// The row of an event after which the estimator keeps other numbers, which it has still to tell.
     fn event(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
         let next = self.rows.len();
-        let books = self.now();
-        (books.kept, books.awaiting) = (None, Some(next));
+        let densities = self.now();
+        (densities.kept, densities.awaiting) = (None, Some(next));
         self.row(note, step, point, numbers)
     }
 
     /// What the estimator keeps of the branch at hand, after the last event of it.
-    fn keeps(&mut self, kept: Kept) {
-        let books = self.now();
-        books.kept = Some(kept);
-        let Some(row) = books.awaiting.take() else { return };
+    fn keeps(&mut self, kept: WeightRecord) {
+        let densities = self.now();
+        densities.kept = Some(kept);
+        let Some(row) = densities.awaiting.take() else { return };
         if self.ray.awaiting == Some(row) {
             (self.ray.kept, self.ray.awaiting) = (Some(kept), None);
         }
@@ -216,7 +216,7 @@ impl Bookkeeper {
                 for row in self.rows.iter_mut().skip(self.ray_row).filter(|row| row.branch == Branch::Path) {
                     row.kept = self.ray.kept;
                 }
-                self.path = Books { defined: false, order: self.path.order, ..self.ray };
+                self.path = PathDensities { defined: false, order: self.path.order, ..self.ray };
                 times(&mut self.path.f, &weight);
                 let step = if scattered_at.is_some() { Step::Scatter } else { Step::Exit };
                 self.event(i, step, scattered_at, &[]);
@@ -251,9 +251,9 @@ impl Bookkeeper {
                 self.event(i, step, Some(ray.origin), &[]);
             }
             Note::Transmittance { estimate } => {
-                let books = self.now();
-                books.defined = false;
-                times(&mut books.f, &estimate);
+                let densities = self.now();
+                densities.defined = false;
+                times(&mut densities.f, &estimate);
                 self.event(i, Step::Transmittance, None, &[]);
             }
             Note::Connected { arrives } => {
@@ -264,12 +264,12 @@ impl Bookkeeper {
             }
             Note::LightWalk => self.walk = Some(self.path),
             Note::LightWalkEnds => self.walk = None,
-            Note::ByAngle => {
+            Note::EquiangularVertex => {
                 // From here on there is a third density.
                 self.path.defined = false;
                 self.by_angle = Some(self.path);
             }
-            Note::ByAngleEnds => (self.by_angle, self.link) = (None, None),
+            Note::EquiangularVertexEnds => (self.by_angle, self.link) = (None, None),
             Note::Credit { technique, emitted, other_density, value, film } => {
                 self.credit(i, (technique, other_density), emitted, value, film);
             }
@@ -277,7 +277,7 @@ impl Bookkeeper {
         }
     }
 
-    fn collide(&mut self, i: usize, found: Found, kept: Kept) {
+    fn collide(&mut self, i: usize, found: CollisionRecord, kept: WeightRecord) {
         self.now().pass(&found.passed);
         self.keeps(kept);
         // Connections take every collision as null; walks draw.
@@ -304,22 +304,22 @@ impl Bookkeeper {
     /// As [`Self::drawn`], with one density for all components: p_uni and p_nee have that, whichever is the hero.
     fn drawn_for_all(&mut self, i: usize, event: Event, u: f32, density: f32) {
         let Some(found) = self.found.take() else { return };
-        let books = self.now();
+        let densities = self.now();
         let factor = match event {
             Event::Null => Some(found.null),
             Event::Scattering => Some(found.scattering),
             Event::Absorption => None,
         };
-        books.nulls += u32::from(event == Event::Null);
+        densities.nulls += u32::from(event == Event::Null);
         if let Some(factor) = factor {
-            times(&mut books.f, &factor);
-            times(&mut books.uni, &[density; 4]);
-            times(&mut books.nee, &[density; 4]);
+            times(&mut densities.f, &factor);
+            times(&mut densities.uni, &[density; 4]);
+            times(&mut densities.nee, &[density; 4]);
         }
         self.outcome(i, event, u, found);
     }
 
-    fn outcome(&mut self, note: usize, event: Event, u: f32, found: Found) {
+    fn outcome(&mut self, note: usize, event: Event, u: f32, found: CollisionRecord) {
         let step = match event {
             Event::Null => Step::Null,
             Event::Scattering => Step::Scatter,
@@ -347,32 +347,38 @@ impl Bookkeeper {
         film: Vec3,
     ) {
         let (count, grey) = (self.carried.count(), self.carried == Carried::Grey);
-        let mut books = *self.now();
-        books.defined &= self.balanced;
+        let mut path = *self.now();
+        path.defined &= self.balanced;
         let by_definition = match technique {
             Technique::Walk => {
-                let mut nee = books.nee;
+                let mut nee = path.nee;
                 times(&mut nee, &[other_density; 4]);
-                let densities = if other_density > 0.0 { &[&books.uni, &nee][..] } else { &[&books.uni] };
-                books.worth(&emitted, densities, count, grey)
+                let densities = if other_density > 0.0 { &[&path.uni, &nee][..] } else { &[&path.uni] };
+                path.value(&emitted, densities, count, grey)
             }
             Technique::Connection => {
-                let densities =
-                    if other_density > 0.0 { &[&books.nee, &books.uni][..] } else { &[&books.nee] };
-                books.worth(&emitted, densities, count, grey)
+                let densities = if other_density > 0.0 { &[&path.nee, &path.uni][..] } else { &[&path.nee] };
+                path.value(&emitted, densities, count, grey)
             }
-            Technique::Glow => self.found.and_then(|found| {
-                times(&mut books.f, &found.absorption);
-                times(&mut books.uni, &found.tentative);
-                books.worth(&emitted, &[&books.uni], count, grey)
+            Technique::Emission => self.found.and_then(|found| {
+                times(&mut path.f, &found.absorption);
+                times(&mut path.uni, &found.tentative);
+                path.value(&emitted, &[&path.uni], count, grey)
             }),
-            Technique::Angle => None,
+            Technique::Equiangular => None,
         };
-        let vertices = books.order + u32::from(technique == Technique::Angle);
-        let entry =
-            Credit { technique, order: vertices, nulls: books.nulls, emitted, value, film, by_definition };
+        let vertices = path.order + u32::from(technique == Technique::Equiangular);
+        let entry = Credit {
+            technique,
+            order: vertices,
+            nulls: path.nulls,
+            emitted,
+            value,
+            film,
+            by_definition,
+        };
         self.row(i, Step::Credit, None, &[]).credit = Some(entry);
-        if matches!(technique, Technique::Connection | Technique::Angle) {
+        if matches!(technique, Technique::Connection | Technique::Equiangular) {
             self.link = None;
         }
     }

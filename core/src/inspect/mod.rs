@@ -4,9 +4,9 @@
 //! tells its steps to an [`Observer`](crate::transport::Observer).
 
 mod advice;
-mod books;
 mod heaviest;
 mod ledger;
+mod path_densities;
 mod product;
 mod ray_bench;
 mod recording;

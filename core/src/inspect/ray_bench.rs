@@ -9,7 +9,7 @@ use crate::medium::{AnyMedium, Medium};
 use crate::scene::{Mode, Scene};
 use crate::spectrum::{Components, RgbChannels, Sampled, Wavelengths};
 use crate::transmittance::{Analytic, InMedium, Piece, Profile, Shape, TransmittanceKind};
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use std::cell::RefCell;
 
 /// What a ray leads through.
@@ -139,20 +139,20 @@ impl<I: Iterator<Item = Piece<1>>> Iterator for Cut<I> {
 impl RayBench {
     /// Puts a ray on the bench; `None` if it misses the medium, or was called off.
     #[must_use]
-    pub fn new(along: &Along<'_>, plan: &BenchPlan, wanted: Wanted<'_>) -> Option<Self> {
+    pub fn new(along: &Along<'_>, plan: &BenchPlan, cancel: CancelToken<'_>) -> Option<Self> {
         match *along {
             Along::Shape { shape, extinction, cells, majorant_factor } => {
                 let profile = Analytic { majorant_factor, ..Analytic::new(shape, [extinction], cells) };
                 let exact = |t: f32| (-f64::from(extinction) * shape.integral(f64::from(t))).exp();
-                Self::of(&profile, 1.0, plan, Some(&exact), wanted)
+                Self::of(&profile, 1.0, plan, Some(&exact), cancel)
             }
             Along::Medium { scene, ray, mode: Mode::Spectral, component } => {
                 let components = Wavelengths::<1> { lambda_nm: [component], density_per_nm: [1.0] };
-                Self::in_medium(scene, &ray, &components, plan, wanted)
+                Self::in_medium(scene, &ray, &components, plan, cancel)
             }
             Along::Medium { scene, ray, mode: Mode::Rgb, component } => {
                 let components = RgbChannels::<1> { channel: [(component as usize).min(2)] };
-                Self::in_medium(scene, &ray, &components, plan, wanted)
+                Self::in_medium(scene, &ray, &components, plan, cancel)
             }
         }
     }
@@ -162,12 +162,12 @@ impl RayBench {
         ray: &Ray,
         components: &C,
         plan: &BenchPlan,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Self> {
         match &scene.medium {
-            AnyMedium::Homogeneous(m) => Self::through(m, scene, ray, components, plan, wanted),
-            AnyMedium::DensityGrid(m) => Self::through(m, scene, ray, components, plan, wanted),
-            AnyMedium::RgbGrids(m) => Self::through(m, scene, ray, components, plan, wanted),
+            AnyMedium::Homogeneous(m) => Self::through(m, scene, ray, components, plan, cancel),
+            AnyMedium::DensityGrid(m) => Self::through(m, scene, ray, components, plan, cancel),
+            AnyMedium::RgbGrids(m) => Self::through(m, scene, ray, components, plan, cancel),
         }
     }
 
@@ -177,11 +177,11 @@ impl RayBench {
         ray: &Ray,
         components: &C,
         plan: &BenchPlan,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Self> {
         let (start, inside) = BoxRay::enter(ray, &scene.medium_from_world, f32::INFINITY)?;
         let local = medium.local::<1, _>(components);
-        let bench = Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, wanted)?;
+        let bench = Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, cancel)?;
         Some(Self { start, ..bench })
     }
 
@@ -190,7 +190,7 @@ impl RayBench {
         length: f32,
         plan: &BenchPlan,
         exact: Option<&dyn Fn(f32) -> f64>,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Self> {
         let pieces: Vec<Piece<1>> = profile.pieces().collect();
         let extinction_at = |t: f32| {
@@ -227,7 +227,7 @@ impl RayBench {
             let estimate = plan.kind.estimate(profile, &mut numbers(which));
             estimates.push(estimate.weight.hero());
             lookups += u64::from(estimate.lookups);
-            if !wanted.yes() {
+            if !cancel.is_active() {
                 return None;
             }
         }
@@ -286,7 +286,7 @@ mod tests {
             Shape::ALL.map(|shape| Along::Shape { shape, extinction: 2.0, cells: 4, majorant_factor: 1.0 });
         for along in shapes.iter().chain([&medium]) {
             for kind in TransmittanceKind::all().into_iter().filter(|kind| kind.entry().unbiased) {
-                let bench = RayBench::new(along, &plan(kind), Wanted::ALWAYS).unwrap();
+                let bench = RayBench::new(along, &plan(kind), CancelToken::NEVER).unwrap();
                 let [mean, error] = bench.mean;
                 let off = (mean - bench.truth()).abs();
                 assert!(off < 4.5 * error + 2e-4, "{along:?} {}: {mean} {}", kind.entry().id, bench.truth());
@@ -306,7 +306,7 @@ mod tests {
     fn an_estimator_by_collisions_goes_down_in_steps_where_it_has_looked() {
         let along = Along::Shape { shape: Shape::Cosine, extinction: 6.0, cells: 1, majorant_factor: 1.5 };
         let ratio = TransmittanceKind::find("ratio").unwrap();
-        let bench = RayBench::new(&along, &plan(ratio), Wanted::ALWAYS).unwrap();
+        let bench = RayBench::new(&along, &plan(ratio), CancelToken::NEVER).unwrap();
         let mut expected = 1.0;
         for look in &bench.looks {
             expected *= 1.0 - look.extinction / 9.0;
@@ -321,6 +321,6 @@ mod tests {
         let miss = Ray { origin: glam::Vec3::splat(99.0), direction: glam::Vec3::X };
         let scene = build(&crate::scene::SceneDoc::default(), &mut Library::default()).unwrap();
         let along = Along::Medium { scene: &scene, ray: miss, mode: Mode::Rgb, component: 0.0 };
-        assert!(RayBench::new(&along, &plan(ratio), Wanted::ALWAYS).is_none());
+        assert!(RayBench::new(&along, &plan(ratio), CancelToken::NEVER).is_none());
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
-use crate::transport::{Company, Note, Observer, Wanted};
+use crate::transport::{CancelToken, Note, Observer, PathContext};
 
 /// Every step of one path.
 #[derive(Clone, Debug)]
@@ -48,10 +48,10 @@ impl Recording {
         kernel: Kernel,
         settings: &Settings,
         at: PathIndex,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Self {
         let mut notes = Notes::default();
-        let estimate = kernel(scene, settings, at, Company::observed(wanted, &mut notes));
+        let estimate = kernel(scene, settings, at, PathContext::observed(cancel, &mut notes));
         Self { at, settings: *settings, notes: notes.taken, complete: !notes.left_out, estimate }
     }
 }
@@ -83,7 +83,7 @@ mod tests {
         let settings = Settings::new(&doc.estimator, 1);
         let kernel = find("spectral-mis").unwrap().kernel;
         let at = PathIndex { x: 0, y: 0, sample: 0 };
-        let recording = Recording::new(&scene, kernel, &settings, at, Wanted::ALWAYS);
+        let recording = Recording::new(&scene, kernel, &settings, at, CancelToken::NEVER);
         assert!(!recording.complete && recording.notes.len() == Recording::MOST_NOTES + 1);
         assert!(
             matches!(recording.notes.last(), Some(Note::End { film, .. }) if *film == recording.estimate.rgb)

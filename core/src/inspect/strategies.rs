@@ -7,7 +7,7 @@
 use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
 use crate::spectrum::Carried;
-use crate::transport::{Company, Event, Note, Observer, Technique, Wanted};
+use crate::transport::{CancelToken, Event, Note, Observer, PathContext, Technique};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -111,7 +111,7 @@ impl Sorter {
     fn layer(&self, technique: Technique) -> usize {
         match self.split {
             Split::Technique => technique as usize,
-            Split::Order => (self.order + usize::from(technique == Technique::Angle)).min(ORDERS),
+            Split::Order => (self.order + usize::from(technique == Technique::Equiangular)).min(ORDERS),
             Split::Nulls => match self.nulls + self.aside.unwrap_or(0) {
                 n @ 0..=2 => n as usize,
                 n @ 3..=32 => (n - 1).ilog2() as usize + 2,
@@ -141,11 +141,11 @@ impl Observer for Sorter {
             }
             Note::Vertex(_) => self.order += 1,
             Note::Connect { .. } if !self.by_angle => (self.aside, self.draws) = (Some(0), false),
-            Note::ByAngle => (self.by_angle, self.aside, self.draws) = (true, Some(0), false),
+            Note::EquiangularVertex => (self.by_angle, self.aside, self.draws) = (true, Some(0), false),
             Note::LightWalk => (self.aside, self.draws) = (Some(0), true),
             Note::Connected { arrives: false } if !self.by_angle => self.aside = None,
             Note::LightWalkEnds => self.aside = None,
-            Note::ByAngleEnds => (self.by_angle, self.aside) = (false, None),
+            Note::EquiangularVertexEnds => (self.by_angle, self.aside) = (false, None),
             Note::Credit { technique, film, .. } => {
                 let layer = self.layer(*technique);
                 self.layers[layer] += film.as_dvec3();
@@ -186,8 +186,8 @@ impl<'a> StrategyPlan<'a> {
     }
 
     /// The path of one sample, as the film has it.
-    pub(super) fn trace(&self, at: PathIndex, company: Company<'_>) -> PathEstimate {
-        (self.kernel)(scene_of(self.scene, self.earlier, at.sample), self.settings, at, company)
+    pub(super) fn trace(&self, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
+        (self.kernel)(scene_of(self.scene, self.earlier, at.sample), self.settings, at, context)
     }
 
     /// Columns and rows that are traced.
@@ -218,7 +218,7 @@ pub(crate) fn scene_of<'a>(newest: &'a Scene, earlier: &'a [(u64, Arc<Scene>)], 
 /// The name of the layer that has most of one path's light.
 pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -> String {
     let mut sorter = Sorter::new(split);
-    plan.trace(at, Company::observed(Wanted::ALWAYS, &mut sorter));
+    plan.trace(at, PathContext::observed(CancelToken::NEVER, &mut sorter));
     let grey = sorter.layers.iter().map(|layer| layer.element_sum());
     let largest = grey.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     largest.and_then(|(i, _)| split.layers().into_iter().nth(i)).unwrap_or_default()
@@ -278,16 +278,20 @@ impl Observer for Sorters {
 impl Strategies {
     /// Traces some samples of every pixel and sorts what they add; `None` if it was called off.
     #[must_use]
-    pub fn render(plan: &StrategyPlan<'_>, split: Split, wanted: Wanted<'_>) -> Option<Self> {
-        Self::render_all(plan, &[split], wanted)?.pop()
+    pub fn render(plan: &StrategyPlan<'_>, split: Split, cancel: CancelToken<'_>) -> Option<Self> {
+        Self::render_all(plan, &[split], cancel)?.pop()
     }
 
     /// The same paths, sorted in several ways.
     #[must_use]
-    pub fn render_all(plan: &StrategyPlan<'_>, splits: &[Split], wanted: Wanted<'_>) -> Option<Vec<Self>> {
+    pub fn render_all(
+        plan: &StrategyPlan<'_>,
+        splits: &[Split],
+        cancel: CancelToken<'_>,
+    ) -> Option<Vec<Self>> {
         let (width, height) = plan.size();
         let rows: Option<Vec<Vec<Vec<Sums>>>> =
-            (0..height).into_par_iter().map(|y| Self::row(plan, splits, y, wanted)).collect();
+            (0..height).into_par_iter().map(|y| Self::row(plan, splits, y, cancel)).collect();
         let pixels: Vec<Vec<Sums>> = rows?.into_iter().flatten().collect();
         let (first, end) = plan.samples;
         let of = |(i, split): (usize, &Split)| {
@@ -309,7 +313,7 @@ impl Strategies {
         plan: &StrategyPlan<'_>,
         splits: &[Split],
         row: usize,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Vec<Vec<Sums>>> {
         let mut sorters = Sorters(splits.iter().map(|split| Sorter::new(*split)).collect());
         let (width, _) = plan.size();
@@ -319,10 +323,10 @@ impl Strategies {
             let mut sums: Vec<Sums> = sorters.0.iter().map(|sorter| Sums::new(sorter.layers.len())).collect();
             for sample in plan.samples.0..plan.samples.1 {
                 sorters.0.iter_mut().for_each(Sorter::clear);
-                let company = Company::observed(wanted, &mut sorters);
-                let estimate = plan.trace(PathIndex { x, y, sample }, company);
+                let context = PathContext::observed(cancel, &mut sorters);
+                let estimate = plan.trace(PathIndex { x, y, sample }, context);
                 // Asked after each path: the estimate of an unwanted one must not be kept.
-                if !wanted.yes() {
+                if !cancel.is_active() {
                     return None;
                 }
                 if estimate.rgb.is_finite() {

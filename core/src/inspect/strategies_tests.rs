@@ -13,10 +13,10 @@ fn now_and_then_without_a_value(
     _: &Scene,
     _: &Settings,
     at: PathIndex,
-    company: Company<'_>,
+    context: PathContext<'_>,
 ) -> PathEstimate {
     let number = at.sample + 3 * u64::from(at.x) + 7 * u64::from(at.y);
-    let mut trace = Trace::new(crate::math::Sampler::new(5, number, 0), company);
+    let mut trace = Trace::new(crate::math::Sampler::new(5, number, 0), context);
     let mut sum = Vec3::ZERO;
     for (i, technique) in Technique::ALL.into_iter().enumerate() {
         let broken = at.x == 0 || number % 11 == i as u64;
@@ -58,7 +58,7 @@ fn parts_sum_to_the_film_where_samples_are_not_finite() {
     let probe = probe(now_and_then_without_a_value);
     let film = film(&probe);
     for split in Split::ALL {
-        let parts = probe.strategies(split, 0..SPP, Wanted::ALWAYS).unwrap();
+        let parts = probe.strategies(split, 0..SPP, CancelToken::NEVER).unwrap();
         assert!(!parts.layers.is_empty());
         for (i, pixel) in film.pixels.iter().enumerate() {
             let sum: DVec3 = parts.layers.iter().map(|l| Vec3::from_array(l.mean[i]).as_dvec3()).sum();

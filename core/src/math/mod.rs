@@ -11,7 +11,7 @@ pub use fast::{exp, ln, sin_cos_turns};
 pub use frame::Frame;
 pub use polar::PolarAngle;
 pub use ray::{BoxRay, Ray};
-pub use sampler::{Beside, Sampler, SamplerKind, numbers_of_point};
+pub use sampler::{Sampler, SamplerKind, SideStream, numbers_of_point};
 
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;

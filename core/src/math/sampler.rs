@@ -39,7 +39,7 @@ pub struct Sampler {
 
 /// What is drawn beside the walk at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Beside {
+pub enum SideStream {
     /// A connection from the vertex to a light.
     Connection = 1,
     /// A connection from a vertex that is drawn by angle on the way to the next one.
@@ -68,7 +68,7 @@ impl Sampler {
     /// same path.
     #[must_use]
     #[inline]
-    pub fn beside_walk(&self, what: Beside) -> Self {
+    pub fn side_stream(&self, what: SideStream) -> Self {
         let path = mix(self.path ^ (u64::from(self.vertex) << 8 | what as u64));
         Self { rng: Pcg32::new(path, self.pixel), stratified: None, path, pixel: self.pixel, vertex: 0 }
     }
@@ -220,7 +220,7 @@ mod tests {
             }
             let flight = [s.optical_depth(), s.optical_depth()].map(|depth| -(-depth).exp_m1());
             let event = s.event();
-            let mut connection = s.beside_walk(Beside::Connection);
+            let mut connection = s.side_stream(SideStream::Connection);
             let (point, light) = s.light(&mut connection);
             let (direction, roulette) = (s.direction(), s.roulette());
             let decisions = [flight[0], flight[1], event, roulette, light];

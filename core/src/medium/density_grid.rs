@@ -1,8 +1,8 @@
 //! A scalar density: σt(x, λ) = scale · density(x) · σ(λ), albedo(λ) the same everywhere.
 
 use super::{
-    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy, MajorantSegment,
-    Medium, Outlook,
+    CellWalk, Coefficients, ExtinctionPrior, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy,
+    MajorantSegment, Medium,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -68,8 +68,8 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     }
 
     #[inline]
-    fn outlook(&self, point: Vec3) -> Outlook<N> {
-        Outlook::of_mean(self.extinction * self.bounds.mean(self.bounds.cell_at(point)))
+    fn extinction_prior(&self, point: Vec3) -> ExtinctionPrior<N> {
+        ExtinctionPrior::of_mean(self.extinction * self.bounds.mean(self.bounds.cell_at(point)))
     }
 
     #[inline]

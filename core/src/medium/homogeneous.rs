@@ -1,6 +1,6 @@
 //! Constant coefficients: σt(λ) and albedo(λ) everywhere in the box.
 
-use super::{Coefficients, LocalMedium, MajorantPolicy, MajorantSegment, Medium, Outlook};
+use super::{Coefficients, ExtinctionPrior, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
@@ -49,8 +49,8 @@ impl<const N: usize> LocalMedium<N> for LocalHomogeneous<N> {
         Coefficients::new(self.extinction, self.albedo, majorant)
     }
 
-    fn outlook(&self, _point: Vec3) -> Outlook<N> {
-        Outlook::exact(self.extinction)
+    fn extinction_prior(&self, _point: Vec3) -> ExtinctionPrior<N> {
+        ExtinctionPrior::exact(self.extinction)
     }
 
     fn control(&self, _point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {

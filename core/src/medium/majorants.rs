@@ -15,19 +15,19 @@ const CELL_COST: f32 = 0.12;
 #[derive(Debug)]
 pub struct Majorants<const C: usize> {
     grid: Arc<Grid<C>>,
-    trilinear: Kept<C>,
-    stochastic: Kept<C>,
+    trilinear: WeightRecord<C>,
+    stochastic: WeightRecord<C>,
 }
 
 /// Grids that bound one kind of look-up.
 #[derive(Debug)]
-struct Kept<const C: usize> {
+struct WeightRecord<const C: usize> {
     /// Powers of two, the coarsest first.
     levels: OnceLock<Vec<Arc<MajorantGrid<C>>>>,
     others: Mutex<BTreeMap<u32, Arc<MajorantGrid<C>>>>,
 }
 
-impl<const C: usize> Default for Kept<C> {
+impl<const C: usize> Default for WeightRecord<C> {
     fn default() -> Self {
         Self { levels: OnceLock::new(), others: Mutex::default() }
     }
@@ -37,10 +37,10 @@ impl<const C: usize> Majorants<C> {
     /// Of a field; nothing is computed yet.
     #[must_use]
     pub fn new(grid: Arc<Grid<C>>) -> Self {
-        Self { grid, trilinear: Kept::default(), stochastic: Kept::default() }
+        Self { grid, trilinear: WeightRecord::default(), stochastic: WeightRecord::default() }
     }
 
-    fn kept(&self, interpolation: Interpolation) -> &Kept<C> {
+    fn kept(&self, interpolation: Interpolation) -> &WeightRecord<C> {
         match interpolation {
             Interpolation::Trilinear => &self.trilinear,
             Interpolation::Stochastic => &self.stochastic,

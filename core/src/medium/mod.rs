@@ -12,12 +12,12 @@ mod cell_walk;
 mod coefficients;
 mod density_grid;
 mod emission;
+mod extinction_prior;
 mod grid;
 mod homogeneous;
 mod majorant;
 mod majorant_grid;
 mod majorants;
-mod outlook;
 mod rgb_grids;
 mod shared_majorant;
 mod violations;
@@ -27,12 +27,12 @@ pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::Coefficients;
 pub use density_grid::DensityGrid;
 pub use emission::Emission;
+pub use extinction_prior::ExtinctionPrior;
 pub use grid::{BRICK_EDGE, Bricks, Grid, Interpolation, Lattice, Packing, Precision};
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;
 pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
-pub use outlook::Outlook;
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
 pub use shared_majorant::SharedMajorant;
 pub use violations::Violations;
@@ -71,8 +71,8 @@ pub trait LocalMedium<const N: usize> {
 
     /// What is known of the extinction around a point of medium space, without a look-up: nothing, unless a medium
     /// says otherwise.
-    fn outlook(&self, _point: Vec3) -> Outlook<N> {
-        Outlook::UNKNOWN
+    fn extinction_prior(&self, _point: Vec3) -> ExtinctionPrior<N> {
+        ExtinctionPrior::UNKNOWN
     }
 
     /// A lower bound μc of the extinction around a point of medium space, with the albedo there, if they are known

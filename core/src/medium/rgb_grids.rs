@@ -6,8 +6,8 @@
 
 use super::density_grid::DensitySegments;
 use super::{
-    CellWalk, Coefficients, Grid, Interpolation, LocalMedium, MajorantCells, MajorantGrid, MajorantPolicy,
-    MajorantSegment, Medium, Outlook, Violations,
+    CellWalk, Coefficients, ExtinctionPrior, Grid, Interpolation, LocalMedium, MajorantCells, MajorantGrid,
+    MajorantPolicy, MajorantSegment, Medium, Violations,
 };
 use crate::math::BoxRay;
 use crate::spectrum::{Components, Sampled, Spectrum};
@@ -154,18 +154,20 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
         Coefficients::new(extinction, albedo, majorant)
     }
 
-    fn outlook(&self, point: Vec3) -> Outlook<N> {
+    fn extinction_prior(&self, point: Vec3) -> ExtinctionPrior<N> {
         match &self.medium.extinction {
-            ExtinctionField::Uniform(_) => Outlook::exact(self.extinction),
+            ExtinctionField::Uniform(_) => ExtinctionPrior::exact(self.extinction),
             ExtinctionField::Density(_, bounds, _) => {
-                Outlook::of_mean(self.extinction * bounds.mean(bounds.cell_at(point)))
+                ExtinctionPrior::of_mean(self.extinction * bounds.mean(bounds.cell_at(point)))
             }
             ExtinctionField::Rgb(_, bounds, _) => {
                 // Only the largest channel's mean is kept: the others are taken to be in proportion to their bounds.
                 let cell = bounds.cell_at(point);
                 let bound = bounds.bound(cell);
                 let largest = bound.iter().fold(f32::MIN_POSITIVE, |a, b| a.max(*b));
-                Outlook::of_mean(self.extinction * self.upsample(bound) * (bounds.mean(cell) / largest))
+                ExtinctionPrior::of_mean(
+                    self.extinction * self.upsample(bound) * (bounds.mean(cell) / largest),
+                )
             }
         }
     }

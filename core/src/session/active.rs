@@ -5,7 +5,7 @@ use super::stopping::{Ending, ErrorTarget, ending};
 use super::{Probe, Role, Status};
 use crate::film::{Film, Images, Snapshot, Tally};
 use crate::scene::Limits;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use rayon::ThreadPool;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -92,7 +92,7 @@ impl Active {
     }
 
     pub fn work(&self) -> Work<'_> {
-        Work { probe: &self.probe, wanted: Wanted::new(&self.current, self.generation) }
+        Work { probe: &self.probe, cancel: CancelToken::new(&self.current, self.generation) }
     }
 
     /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.

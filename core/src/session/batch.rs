@@ -3,7 +3,7 @@
 use super::Probe;
 use super::pass::Work;
 use crate::film::{Film, Tally};
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use cpu_time::ProcessTime;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
@@ -48,7 +48,7 @@ pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
     let (began, cpu) = (Instant::now(), ProcessTime::now());
     while pass > 0 {
         pass = pass.min(probe.until_raise(spp));
-        let work = Work { probe: &probe, wanted: Wanted::ALWAYS };
+        let work = Work { probe: &probe, cancel: CancelToken::NEVER };
         // Nobody cancels it.
         let cost = pool.install(|| work.add_samples(&mut film, &(spp..spp + pass), NonZeroUsize::MIN));
         let cost = cost.unwrap_or_default();
@@ -92,7 +92,7 @@ mod tests {
     use crate::estimator::{PathEstimate, PathIndex, Settings, find};
     use crate::io::Library;
     use crate::scene::{Scene, SceneDoc, WhenExceeded, build};
-    use crate::transport::Company;
+    use crate::transport::PathContext;
     use std::sync::Arc;
 
     fn pool() -> ThreadPool {
@@ -105,7 +105,7 @@ mod tests {
         doc
     }
 
-    fn number(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn number(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         PathEstimate { rgb: glam::Vec3::splat(at.sample as f32), lookups: 1, exceeded: 0 }
     }
 
@@ -159,7 +159,7 @@ mod tests {
         for replayed in [&film.probe, &of_film] {
             for (i, pixel) in film.film.pixels.iter().enumerate() {
                 let mut again = crate::film::Pixel::default();
-                for sample in replayed.samples((i as u32 % 6, i as u32 / 6), 0..SPP, Wanted::ALWAYS) {
+                for sample in replayed.samples((i as u32 % 6, i as u32 / 6), 0..SPP, CancelToken::NEVER) {
                     again.lookups += sample.lookups;
                     again.add(sample.rgb);
                 }

@@ -1,15 +1,15 @@
 //! The thread that owns the films and decides which view gets the next pass.
 
 use super::active::Active;
-use super::keeper::Keeper;
+use super::job_cache::JobCache;
 use super::mailbox::{Command, Mailbox};
 use super::pass::Work;
-use super::turns::Turns;
+use super::scheduler::Scheduler;
 use super::{Job, Probe, Role, ViewId, preview};
 use crate::estimator::{self, Settings};
 use crate::film::{Film, Images};
 use crate::io::Library;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -27,10 +27,10 @@ const ROWS_PER_TASK: NonZeroUsize = NonZeroUsize::MIN;
 pub(super) fn run(mailbox: &Mailbox, library: Library) {
     let mut coordinator = Coordinator {
         mailbox,
-        keeper: Keeper::new(library),
+        cache: JobCache::new(library),
         views: BTreeMap::new(),
         paused: BTreeSet::new(),
-        turns: Turns::default(),
+        scheduler: Scheduler::default(),
         cancelled: BTreeMap::new(),
     };
     loop {
@@ -45,11 +45,11 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
 
 struct Coordinator<'a> {
     mailbox: &'a Mailbox,
-    keeper: Keeper,
+    cache: JobCache,
     views: BTreeMap<ViewId, Active>,
     /// Views that the user has paused; they stay so through edits and failures.
     paused: BTreeSet<ViewId>,
-    turns: Turns,
+    scheduler: Scheduler,
     /// Films of views whose pass was broken off for what comes next.
     cancelled: BTreeMap<ViewId, Film>,
 }
@@ -64,7 +64,7 @@ impl Coordinator<'_> {
                 self.cancelled.remove(&view);
             }
             Command::Limits { view, limits } => self.change(view, |v| v.limits = limits),
-            Command::Fairness(fairness) => self.turns.fairness = fairness,
+            Command::Fairness(fairness) => self.scheduler.fairness = fairness,
             Command::Pause { view, paused } => {
                 if paused {
                     self.paused.insert(view);
@@ -89,14 +89,14 @@ impl Coordinator<'_> {
 
     /// Gives the next pass to the view whose turn it is.
     fn advance_next(&mut self) {
-        let Some((id, most)) = self.turns.next(&self.views) else { return };
+        let Some((id, most)) = self.scheduler.next(&self.views) else { return };
         let contenders = self.views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
         let Some(view) = self.views.get_mut(&id) else { return };
         let before = view.cpu_seconds;
         // A panicking worker must not take the session with it.
         let pass =
             catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK, most).then(|| view.snapshot())));
-        self.turns.note(view.role, view.cpu_seconds - before, contenders);
+        self.scheduler.note(view.role, view.cpu_seconds - before, contenders);
         match pass {
             Ok(Some(snapshot)) => {
                 self.mailbox.publish_snapshot(id, snapshot, (view.status(), view.ending()));
@@ -127,7 +127,7 @@ impl Coordinator<'_> {
         }
         let film = broken_off.or(ended.map(|view| view.film)).unwrap_or(Film::new(0, 0));
         // Nobody waits for it any more: a closing session must not build all that was asked of it.
-        if !Wanted::new(&self.mailbox.current(id), generation).yes() {
+        if !CancelToken::new(&self.mailbox.current(id), generation).is_active() {
             return;
         }
         let built = catch_unwind(AssertUnwindSafe(|| self.activate(id, generation, job)))
@@ -150,17 +150,17 @@ impl Coordinator<'_> {
 
     fn activate(&mut self, id: ViewId, generation: u64, job: &Job) -> Result<Active, String> {
         let doc = &job.doc;
-        let pool = self.keeper.pool(doc.render.threads)?;
+        let pool = self.cache.pool(doc.render.threads)?;
         // The view's own workers read its files: no more threads than were asked for, and none of the
         // process's that would outlive the session.
-        let scene = pool.install(|| self.keeper.scene(doc))?;
+        let scene = pool.install(|| self.cache.scene(doc))?;
         let entry = estimator::find(&doc.estimator.id)
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
         let settings = Settings::new(&doc.estimator, doc.render.seed);
         let current = self.mailbox.current(id);
         let probe = Probe::new(scene, entry.kernel, settings).afresh();
         let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
-        (view.role, view.target) = (job.role, self.keeper.target(doc));
+        (view.role, view.target) = (job.role, self.cache.target(doc));
         view.paused = self.paused.contains(&id);
         Ok(view)
     }
@@ -202,14 +202,14 @@ mod tests {
     use crate::estimator::{Kernel, PathEstimate, PathIndex};
     use crate::scene::{Limits, Scene, SceneDoc};
     use crate::session::{Ending, Status};
-    use crate::transport::Company;
+    use crate::transport::PathContext;
     use std::sync::Arc;
 
-    fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn breaks(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         panic!("no estimate for pixel {} {}", at.x, at.y)
     }
 
-    fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn not_a_number(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         let value = if at.x == 1 && at.sample == 0 { f32::NAN } else { 0.5 };
         PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
     }
@@ -221,18 +221,18 @@ mod tests {
         let id = ViewId(0);
         let generation =
             mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false, role: Role::Contender });
-        let mut keeper = Keeper::new(Library::default());
-        let scene = keeper.scene(&doc).unwrap();
-        let pool = keeper.pool(Some(2)).unwrap();
+        let mut cache = JobCache::new(Library::default());
+        let scene = cache.scene(&doc).unwrap();
+        let pool = cache.pool(Some(2)).unwrap();
         let settings = Settings::new(&doc.estimator, 0);
         let current = mailbox.current(id);
         let probe = Probe::new(scene, kernel, settings);
         let mut view = Active::new((generation, current), probe, pool, doc.render.limits());
         view.load(Film::new(0, 0));
         let views = BTreeMap::from([(id, view)]);
-        let turns = Turns::default();
+        let scheduler = Scheduler::default();
         let (paused, cancelled) = (BTreeSet::new(), BTreeMap::new());
-        (Coordinator { mailbox, keeper, views, paused, turns, cancelled }, id)
+        (Coordinator { mailbox, cache, views, paused, scheduler, cancelled }, id)
     }
 
     #[test]
@@ -266,15 +266,15 @@ mod tests {
         assert_eq!((later.mean[1], later.tally.non_finite), ([0.5; 3], 2));
     }
 
-    fn black(_: &Scene, _: &Settings, _: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn black(_: &Scene, _: &Settings, _: PathIndex, _: PathContext<'_>) -> PathEstimate {
         PathEstimate { rgb: glam::Vec3::ZERO, lookups: 1, exceeded: 0 }
     }
 
-    fn nowhere_finite(_: &Scene, _: &Settings, _: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn nowhere_finite(_: &Scene, _: &Settings, _: PathIndex, _: PathContext<'_>) -> PathEstimate {
         PathEstimate { rgb: glam::Vec3::INFINITY, lookups: 1, exceeded: 0 }
     }
 
-    fn noisy(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn noisy(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         let pixel = u64::from(at.x + 3 * at.y);
         let value = crate::math::Sampler::new(1, pixel, at.sample).next_optical_depth();
         PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
@@ -340,13 +340,13 @@ mod tests {
     fn a_start_that_nobody_waits_for_is_not_built() {
         let (mailbox, id) = (Mailbox::new(Box::new(|| {}), Library::default().progress().clone()), ViewId(0));
         let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::Contender };
-        let keeper = Keeper::new(Library::default());
+        let cache = JobCache::new(Library::default());
         let mut coordinator = Coordinator {
             mailbox: &mailbox,
-            keeper,
+            cache,
             views: BTreeMap::new(),
             paused: BTreeSet::new(),
-            turns: Turns::default(),
+            scheduler: Scheduler::default(),
             cancelled: BTreeMap::new(),
         };
         let superseded = mailbox.submit(id, job.clone());

@@ -12,13 +12,13 @@
 mod active;
 mod batch;
 mod coordinator;
-mod keeper;
+mod job_cache;
 mod mailbox;
 mod pass;
 mod preview;
 mod probe;
+mod scheduler;
 mod stopping;
-mod turns;
 
 use crate::film::Snapshot;
 use crate::io::{Library, Loading};

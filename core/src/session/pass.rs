@@ -3,7 +3,7 @@
 use super::Probe;
 use crate::estimator::PathEstimate;
 use crate::film::{Film, NonFinite, Pixel, Tally};
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use cpu_time::ThreadTime;
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -28,7 +28,7 @@ impl Cost {
 #[derive(Clone, Copy)]
 pub(super) struct Work<'a> {
     pub probe: &'a Probe,
-    pub wanted: Wanted<'a>,
+    pub cancel: CancelToken<'a>,
 }
 
 /// Samples of a row that are traced before any of them is added to the film.
@@ -37,7 +37,7 @@ const BUFFERED_SAMPLES: u64 = 16;
 impl Work<'_> {
     pub fn path(&self, x: usize, y: usize, sample: u64) -> PathEstimate {
         // Film sizes fit 32 bits by validation.
-        self.probe.path(x as u32, y as u32, sample, self.wanted)
+        self.probe.path(x as u32, y as u32, sample, self.cancel)
     }
 
     /// Adds samples to every pixel of a film; `None` if it was cancelled, which leaves the film
@@ -87,7 +87,7 @@ impl Work<'_> {
             for x in 0..row.len() {
                 traced.extend(some.clone().map(|sample| self.path(x, y, sample)));
                 // Asked after each pixel: the estimate of an unwanted path must not be kept.
-                if !self.wanted.yes() {
+                if !self.cancel.is_active() {
                     return None;
                 }
             }
@@ -118,14 +118,14 @@ mod tests {
     use crate::estimator::{self, Kernel, PathIndex, Settings};
     use crate::io::Library;
     use crate::scene::{Scene, SceneDoc, build};
-    use crate::transport::Company;
+    use crate::transport::PathContext;
     use glam::Vec3;
     use std::sync::Arc;
 
     const SAMPLES: u64 = 6;
 
     /// Every third path of a row has no value.
-    fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: Company<'_>) -> PathEstimate {
+    fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         let value = if (at.x + at.y).is_multiple_of(3) { f32::NAN } else { at.sample as f32 };
         PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x), exceeded: 0 }
     }
@@ -137,7 +137,7 @@ mod tests {
         let scene = build(&doc, &mut Library::default()).unwrap();
         let settings = Settings::new(&doc.estimator, 3);
         let probe = Probe::new(Arc::new(scene), kernel, settings);
-        let work = Work { probe: &probe, wanted: Wanted::ALWAYS };
+        let work = Work { probe: &probe, cancel: CancelToken::NEVER };
         let mut film = Film::new(7, 11);
         let mut tally = Tally::default();
         let mut first = 0;

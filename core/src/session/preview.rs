@@ -20,7 +20,7 @@ pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
         for left in (0..width).step_by(stride) {
             let x = (left + stride / 2).min(width - 1);
             let rgb = work.path(x, y, PREVIEW_SAMPLE).rgb;
-            if !work.wanted.yes() {
+            if !work.cancel.is_active() {
                 return None;
             }
             // What is not finite shows as such.

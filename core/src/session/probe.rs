@@ -4,7 +4,7 @@ use crate::estimator::{Entry, Kernel, PathEstimate, PathIndex, Settings};
 use crate::inspect::{Evidence, Recording, Split, Strategies, StrategyPlan, scene_of};
 use crate::medium::Violations;
 use crate::scene::Scene;
-use crate::transport::Wanted;
+use crate::transport::CancelToken;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -103,20 +103,25 @@ impl Probe {
     }
 
     /// The path of sample number `sample` of a pixel, exactly as the film has received it.
-    pub fn path(&self, x: u32, y: u32, sample: u64, wanted: Wanted<'_>) -> PathEstimate {
-        (self.kernel)(self.scene_of(sample), &self.settings, PathIndex { x, y, sample }, wanted.into())
+    pub fn path(&self, x: u32, y: u32, sample: u64, cancel: CancelToken<'_>) -> PathEstimate {
+        (self.kernel)(self.scene_of(sample), &self.settings, PathIndex { x, y, sample }, cancel.into())
     }
 
     /// The same path with every step that it takes.
     #[must_use]
-    pub fn record(&self, at: PathIndex, wanted: Wanted<'_>) -> Recording {
-        Recording::new(self.scene_of(at.sample), self.kernel, &self.settings, at, wanted)
+    pub fn record(&self, at: PathIndex, cancel: CancelToken<'_>) -> Recording {
+        Recording::new(self.scene_of(at.sample), self.kernel, &self.settings, at, cancel)
     }
 
     /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
     #[must_use]
-    pub fn strategies(&self, split: Split, samples: Range<u64>, wanted: Wanted<'_>) -> Option<Strategies> {
-        Strategies::render(&self.plan(samples), split, wanted)
+    pub fn strategies(
+        &self,
+        split: Split,
+        samples: Range<u64>,
+        cancel: CancelToken<'_>,
+    ) -> Option<Strategies> {
+        Strategies::render(&self.plan(samples), split, cancel)
     }
 
     /// Why a box of pixels is noisy, or the whole image, by samples that are taken apart; `None` if there is no noise, or
@@ -126,7 +131,7 @@ impl Probe {
         &self,
         region: Option<[u32; 4]>,
         chroma: Option<f64>,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Option<Evidence> {
         let mut plan = self.plan(0..0);
         let [left, top, right, bottom] = region.unwrap_or(plan.window);
@@ -138,7 +143,7 @@ impl Probe {
         };
         plan.stride = pixels(1).div_ceil(EVIDENCE_PIXELS).isqrt().max(1) as u32;
         plan.samples = (0, (EVIDENCE_SAMPLES / pixels(plan.stride).max(1)).clamp(8, 512));
-        Evidence::measure(&plan, chroma, wanted)
+        Evidence::measure(&plan, chroma, cancel)
     }
 
     fn plan(&self, samples: Range<u64>) -> StrategyPlan<'_> {
@@ -163,14 +168,19 @@ impl Probe {
     /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not
     /// wanted any more.
     #[must_use]
-    pub fn samples(&self, (x, y): (u32, u32), which: Range<u64>, wanted: Wanted<'_>) -> Vec<PixelSample> {
+    pub fn samples(
+        &self,
+        (x, y): (u32, u32),
+        which: Range<u64>,
+        cancel: CancelToken<'_>,
+    ) -> Vec<PixelSample> {
         let mut samples = Vec::new();
         if x >= self.scene.width || y >= self.scene.height {
             return samples;
         }
         for sample in which {
-            let path = self.path(x, y, sample, wanted);
-            if !wanted.yes() {
+            let path = self.path(x, y, sample, cancel);
+            if !cancel.is_active() {
                 return Vec::new();
             }
             samples.push(PixelSample { rgb: path.rgb.to_array(), lookups: path.lookups });

@@ -51,7 +51,7 @@ impl<L: LocalMedium<N>, const N: usize> Iterator for Pieces<'_, L, N> {
     #[inline]
     fn next(&mut self) -> Option<Piece<N>> {
         let segment = self.segments.next()?;
-        let mut known = self.medium.outlook(self.ray.at(0.5 * (segment.t0 + segment.t1)));
+        let mut known = self.medium.extinction_prior(self.ray.at(0.5 * (segment.t0 + segment.t1)));
         if segment.clamp_null {
             // The medium is cut off at the majorant.
             known.minorant = known.minorant.zip(segment.majorant, f32::min);

@@ -1,6 +1,9 @@
 //! What an estimator keeps of a path, whichever way it does.
 
-use super::{Collision, FaultyWeights, Kept, PathSettings, PathWeights, Turn, WeightsApart, WeightsPairwise};
+use super::{
+    Collision, DirectionSample, FaultyWeights, PathSettings, PathWeights, WeightRecord, WeightsApart,
+    WeightsPairwise,
+};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -35,7 +38,7 @@ pub trait WalkWeights<const N: usize>: Copy {
     /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
     /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
     /// joins p_nee in [`Weights::combined`].
-    fn leave(&mut self, turn: &Turn);
+    fn leave(&mut self, outgoing: &DirectionSample);
 
     /// The value of a path that ends at a collision, where the medium emits: every tentative collision is such an
     /// end, so that its density is p_uni,i μ̄_i, and by the balance heuristic f_j μa_j / mean (p_uni,i μ̄_i).
@@ -49,7 +52,7 @@ pub trait WalkWeights<const N: usize>: Copy {
     fn throughput(&self) -> f32;
 
     /// The numbers that are kept, for whoever looks on.
-    fn kept(&self) -> Kept;
+    fn kept(&self) -> WeightRecord;
 
     /// Whether nothing can come of the path any more.
     fn is_dark(&self) -> bool;
@@ -63,7 +66,7 @@ pub trait Weights<const N: usize>: WalkWeights<N> {
     /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
     /// the path. From here on P is p_nee of the hero.
     #[must_use]
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self;
+    fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self;
 
     /// A connection's transmittance, estimated by something that has no density.
     fn attenuate(&mut self, transmittance: Sampled<N>);
@@ -81,7 +84,7 @@ pub trait Weights<const N: usize>: WalkWeights<N> {
 }
 
 /// A way to keep the books: the form of the weights at any number of components.
-pub trait Books {
+pub trait WeightForm {
     /// The form.
     type Weights<const N: usize>: Weights<N>;
 }
@@ -106,22 +109,22 @@ pub struct Pairwise;
 #[derive(Clone, Copy, Debug)]
 pub struct Faulty;
 
-impl Books for Faulty {
+impl WeightForm for Faulty {
     type Weights<const N: usize> = FaultyWeights<N>;
 }
 
-impl Books for Rescaled {
+impl WeightForm for Rescaled {
     type Weights<const N: usize> = PathWeights<N>;
 }
 
-impl Books for ApartF32 {
+impl WeightForm for ApartF32 {
     type Weights<const N: usize> = WeightsApart<f32, N>;
 }
 
-impl Books for ApartF64 {
+impl WeightForm for ApartF64 {
     type Weights<const N: usize> = WeightsApart<f64, N>;
 }
 
-impl Books for Pairwise {
+impl WeightForm for Pairwise {
     type Weights<const N: usize> = WeightsPairwise<N>;
 }

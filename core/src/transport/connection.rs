@@ -3,9 +3,9 @@
 //! Every collision on the way is taken as null (ratio tracking), so that the connection always
 //! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{Collision, Note, Technique, Trace, Turn, Vertex, WalkWeights, Weights, World};
+use super::{Collision, DirectionSample, Note, Technique, Trace, Vertex, WalkWeights, Weights, World};
 use crate::light::{Emitter, LobeParts};
-use crate::math::{Beside, BoxRay, Ray};
+use crate::math::{BoxRay, Ray, SideStream};
 use crate::medium::LocalMedium;
 use crate::scene::{LightSampling, NearestSurface};
 use crate::spectrum::{Components, Sampled};
@@ -20,14 +20,14 @@ pub struct Connection<R, W> {
     /// Emitted radiance.
     pub radiance: R,
     /// The turn of the path at its vertex, and the density with which the walk would have taken it.
-    pub turn: Turn,
+    pub outgoing: DirectionSample,
 }
 
 /// A direction drawn towards a light, of which nothing stands in the way but the medium.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim<R> {
     /// Phase function or cosine lobe, and the density with which the path itself would go there.
-    pub turn: Turn,
+    pub outgoing: DirectionSample,
     /// From the vertex.
     pub ray: Ray,
     /// To the light.
@@ -45,8 +45,8 @@ impl<R> Aim<R> {
         Note::Connect {
             ray: self.ray,
             distance: self.distance,
-            value: self.turn.value,
-            walk_density: self.turn.density,
+            value: self.outgoing.value,
+            walk_density: self.outgoing.density,
             light_density: self.density,
             light: self.light,
         }
@@ -63,7 +63,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
-        let mut weights = path.connect(&aim.turn, aim.density);
+        let mut weights = path.connect(&aim.outgoing, aim.density);
         trace.tell(move || aim.note());
         let sets_out = weights;
         trace.tell(move || Note::Weights(sets_out.kept()));
@@ -71,7 +71,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let arrives = weights;
         trace.tell(move || Note::Weights(arrives.kept()));
         trace.tell(move || Note::Connected { arrives: true });
-        Some(Connection { weights, radiance: aim.radiance, turn: aim.turn })
+        Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
     }
 
     /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
@@ -82,9 +82,9 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
-        let weights = path.connect(&aim.turn, aim.density);
+        let weights = path.connect(&aim.outgoing, aim.density);
         let weights = self.arrive(&aim, weights, trace)?;
-        Some(Connection { weights, radiance: aim.radiance, turn: aim.turn })
+        Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
     }
 
     /// Passes the way to a light, as [`Self::pass_by_ratio`].
@@ -137,7 +137,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Draws a light and a direction towards it; `None` if it is dark there, or something stands in the way.
     pub fn aim(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Option<Aim<C::Radiance>> {
-        trace.start_beside(Beside::Connection);
+        trace.start_side_stream(SideStream::Connection);
         let (u, which) = trace.sampler.light(&mut trace.connection);
         let (light, probability) =
             self.scene.light_choice.choose(vertex.point(), which, self.settings.lights)?;
@@ -154,14 +154,14 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             Some(parts) => parts.sample_light(index, light, vertex.point(), u)?,
             None => light.sample(vertex.point(), u)?,
         };
-        let turn = self.turns().towards(vertex, sample.direction);
+        let outgoing = self.directions().towards(vertex, sample.direction);
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
         // Occluders are looked for short of the light itself; the medium reaches all the way.
-        if turn.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
+        if outgoing.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
             return None;
         }
         Some(Aim {
-            turn,
+            outgoing,
             ray,
             distance: sample.distance,
             density: sample.density,

@@ -21,7 +21,7 @@
 //! the rest differs from that of the whole), and the rest could be left with no density at all where its f is not zero:
 //! there is no control on such a segment, and the table holds for the whole medium.
 
-use super::{Found, Note, PathSettings, Trace};
+use super::{CollisionRecord, Note, PathSettings, Trace};
 use crate::medium::Coefficients;
 use crate::scene::{Absorption, DistanceSampling};
 use crate::spectrum::Sampled;
@@ -215,9 +215,9 @@ impl<const N: usize> Collision<N> {
 
 impl<const N: usize> Collision<N> {
     /// As it is told, `passed` by the majorants.
-    pub(super) fn found(&self, passed: Sampled<N>) -> Found {
+    pub(super) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
         let c = &self.coefficients;
-        Found {
+        CollisionRecord {
             point: self.point,
             passed: passed.lanes(),
             absorption: c.absorption.lanes(),

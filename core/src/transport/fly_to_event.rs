@@ -54,7 +54,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         while let Some(collision) = walk.next_collision(trace, path) {
             if let Some(emitted) = self.emission_at(&collision, trace) {
                 let value = value_of_emission(path, emitted, &collision);
-                *radiance += self.record(Technique::Glow, (emitted, 0.0), value, trace);
+                *radiance += self.record(Technique::Emission, (emitted, 0.0), value, trace);
             }
             match draw_event(path, &collision, trace) {
                 Event::Null => {}

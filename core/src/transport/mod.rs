@@ -4,7 +4,9 @@
 //! Each has this one home; an estimator's file puts them together and holds the whole path loop.
 
 mod bookkeeping;
+mod cancel_token;
 mod connection;
+mod direction;
 mod divided;
 mod equiangular;
 mod event;
@@ -12,10 +14,8 @@ mod event_densities;
 mod fly_to_event;
 mod heuristic;
 mod observer;
-mod turn;
 mod vertex;
 mod walk;
-mod wanted;
 mod weights;
 mod weights_apart;
 mod weights_equiangular;
@@ -23,18 +23,18 @@ mod weights_faulty;
 mod weights_pairwise;
 mod world;
 
-pub use bookkeeping::{ApartF32, ApartF64, Books, Faulty, Pairwise, Rescaled, WalkWeights, Weights};
+pub use bookkeeping::{ApartF32, ApartF64, Faulty, Pairwise, Rescaled, WalkWeights, WeightForm, Weights};
+pub use cancel_token::CancelToken;
 pub use connection::{Aim, Connection};
+pub use direction::{DirectionSample, DirectionSampler, Guide};
 pub use divided::Flight;
 pub use equiangular::{Passage, Reached};
 pub use event::{Collision, Event, EventRule};
 pub use event_densities::EventDensities;
 pub use fly_to_event::{FlightEnd, hero_event};
-pub use observer::{Company, Found, Kept, Note, Observer, Technique};
-pub use turn::{Guide, Turn, Turns};
+pub use observer::{CollisionRecord, Note, Observer, PathContext, Technique, WeightRecord};
 pub use vertex::Vertex;
 pub use walk::{Part, Place, Walk};
-pub use wanted::Wanted;
 pub use weights::PathWeights;
 pub use weights_apart::WeightsApart;
 pub use weights_equiangular::{EquiangularWeights, LightDensities};

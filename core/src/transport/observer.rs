@@ -4,7 +4,7 @@
 //! numbers, and tells every step as a [`Note`]; without one a step costs a test of an empty option. Paths are
 //! replayed, taken apart by technique, and explained through this alone.
 
-use super::{Event, Wanted};
+use super::{CancelToken, Event};
 use crate::math::Ray;
 use crate::spectrum::{Carried, Lanes, Sampled};
 use glam::{Vec2, Vec3};
@@ -18,14 +18,14 @@ pub enum Technique {
     /// A connection from a vertex to a light.
     Connection,
     /// A vertex drawn by the angle under which a light sees it, and its connection.
-    Angle,
+    Equiangular,
     /// The walk, which has collided where the medium glows.
-    Glow,
+    Emission,
 }
 
 impl Technique {
     /// All, in the order of tables.
-    pub const ALL: [Self; 4] = [Self::Walk, Self::Connection, Self::Angle, Self::Glow];
+    pub const ALL: [Self; 4] = [Self::Walk, Self::Connection, Self::Equiangular, Self::Emission];
 
     /// Name for people.
     #[must_use]
@@ -33,15 +33,15 @@ impl Technique {
         match self {
             Self::Walk => "unidirectional",
             Self::Connection => "next-event",
-            Self::Angle => "equiangular",
-            Self::Glow => "emission",
+            Self::Equiangular => "equiangular",
+            Self::Emission => "emission",
         }
     }
 }
 
 /// A tentative collision, as it was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct CollisionRecord {
     /// Where, in world space.
     pub point: Vec3,
     /// Optical depth by the majorants since the last note of the walk, per component.
@@ -64,14 +64,14 @@ pub struct Found {
 
 /// The three numbers per component that an estimator keeps of a path, under the names that it has for them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kept {
+pub struct WeightRecord {
     /// For instance `f/P`, `p_uni/P`, `p_nee/P`.
     pub names: [&'static str; 3],
     /// Their values.
     pub values: [Lanes; 3],
 }
 
-impl Kept {
+impl WeightRecord {
     /// Of an estimator that keeps one number: throughput over density.
     #[must_use]
     pub fn throughput<const N: usize>(phi: Sampled<N>) -> Self {
@@ -94,17 +94,17 @@ pub enum Note {
         carried: Carried,
     },
     /// A walk, or a connection, has found a tentative collision; what is kept is that before its outcome.
-    Collision(Found, Kept),
+    Collision(CollisionRecord, WeightRecord),
     /// A walk, or a connection, has left the medium after this optical depth.
     Exit {
         /// By the majorants, per component.
         passed: Lanes,
         /// What is kept of the path after it.
-        kept: Kept,
+        kept: WeightRecord,
     },
     /// What is kept of the path after the last event of the walk or connection at hand, where the event could not tell
     /// it itself.
-    Weights(Kept),
+    Weights(WeightRecord),
     /// What a walk has drawn at its last collision.
     Drawn {
         /// The outcome.
@@ -136,7 +136,7 @@ pub enum Note {
         albedo: Lanes,
     },
     /// The path has its next real vertex, and is worth this.
-    Vertex(Kept),
+    Vertex(WeightRecord),
     /// It survives roulette with probability `q`, or ends.
     Roulette {
         /// The random number.
@@ -185,9 +185,9 @@ pub enum Note {
     /// That has ended.
     LightWalkEnds,
     /// A vertex is being drawn by angle along the path's ray.
-    ByAngle,
+    EquiangularVertex,
     /// That vertex and its connection have ended.
-    ByAngleEnds,
+    EquiangularVertexEnds,
     /// Light is added to the estimate.
     Credit {
         /// By what it was found.
@@ -217,21 +217,21 @@ pub trait Observer {
 }
 
 /// Who accompanies a path: somebody who may call it off, and perhaps somebody who looks on.
-pub struct Company<'a> {
-    pub(super) wanted: Wanted<'a>,
+pub struct PathContext<'a> {
+    pub(super) cancel: CancelToken<'a>,
     pub(super) observer: Option<&'a mut dyn Observer>,
 }
 
-impl fmt::Debug for Company<'_> {
+impl fmt::Debug for PathContext<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_struct("Company").field("observed", &self.observer.is_some()).finish_non_exhaustive()
+        f.debug_struct("PathContext").field("observed", &self.observer.is_some()).finish_non_exhaustive()
     }
 }
 
-impl<'a> Company<'a> {
+impl<'a> PathContext<'a> {
     /// A path that is observed.
-    pub fn observed(wanted: Wanted<'a>, observer: &'a mut dyn Observer) -> Self {
-        Self { wanted, observer: Some(observer) }
+    pub fn observed(cancel: CancelToken<'a>, observer: &'a mut dyn Observer) -> Self {
+        Self { cancel, observer: Some(observer) }
     }
 
     /// Tells a step, if anybody looks on. What the closure knows should be moved into it: what is borrowed has to lie in
@@ -251,8 +251,8 @@ fn told(observer: &mut dyn Observer, note: impl FnOnce() -> Note) {
     observer.note(&note());
 }
 
-impl<'a> From<Wanted<'a>> for Company<'a> {
-    fn from(wanted: Wanted<'a>) -> Self {
-        Self { wanted, observer: None }
+impl<'a> From<CancelToken<'a>> for PathContext<'a> {
+    fn from(cancel: CancelToken<'a>) -> Self {
+        Self { cancel, observer: None }
     }
 }

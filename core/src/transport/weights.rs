@@ -21,7 +21,7 @@
 //! alone: weights that leave them out of *every* technique still sum to one.
 
 use super::heuristic::{among_all, among_heroes};
-use super::{Collision, Kept, Turn, WalkWeights, Weights};
+use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -76,10 +76,10 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
     }
 
     #[inline]
-    fn leave(&mut self, turn: &Turn) {
-        let drawn = 1.0 / turn.density;
-        if turn.value != turn.density {
-            self.contribution *= turn.value * drawn;
+    fn leave(&mut self, outgoing: &DirectionSample) {
+        let drawn = 1.0 / outgoing.density;
+        if outgoing.value != outgoing.density {
+            self.contribution *= outgoing.value * drawn;
         }
         self.nee = self.uni * drawn;
     }
@@ -101,9 +101,9 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
         now.contribution.abs().max_component() / now.uni.mean()
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> WeightRecord {
         let now = self.settled();
-        Kept {
+        WeightRecord {
             names: ["f/P", "p_uni/P", "p_nee/P"],
             values: [now.contribution.lanes(), now.uni.lanes(), now.nee.lanes()],
         }
@@ -123,11 +123,11 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
 
 impl<const N: usize> Weights<N> for PathWeights<N> {
     #[inline]
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+    fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self {
         let drawn = 1.0 / light_density;
         Self {
-            contribution: self.contribution * (turn.value * drawn),
-            uni: self.uni * (turn.density * drawn),
+            contribution: self.contribution * (outgoing.value * drawn),
+            uni: self.uni * (outgoing.density * drawn),
             nee: self.uni,
             pending: self.pending,
         }

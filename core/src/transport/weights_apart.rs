@@ -6,7 +6,7 @@
 //! times as long.
 
 use super::heuristic::share;
-use super::{Collision, Kept, Turn, WalkWeights, Weights};
+use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
 use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 use std::ops::{AddAssign, Div, Mul, MulAssign};
@@ -128,10 +128,10 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
         self.contributes(albedo);
     }
 
-    fn leave(&mut self, turn: &Turn) {
+    fn leave(&mut self, outgoing: &DirectionSample) {
         self.nee = self.uni;
-        multiply(&mut self.f, Sampled::splat(turn.value));
-        multiply(&mut self.uni, Sampled::splat(turn.density));
+        multiply(&mut self.f, Sampled::splat(outgoing.value));
+        multiply(&mut self.uni, Sampled::splat(outgoing.density));
     }
 
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
@@ -149,9 +149,9 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
         self.over(mean(self.uni), 1.0).abs().max_component()
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> WeightRecord {
         let [f, uni, nee] = [self.f, self.uni, self.nee].map(|of| Sampled(of.map(T::single)).lanes());
-        Kept { names: ["f", "p_uni", "p_nee"], values: [f, uni, nee] }
+        WeightRecord { names: ["f", "p_uni", "p_nee"], values: [f, uni, nee] }
     }
 
     fn is_dark(&self) -> bool {
@@ -164,11 +164,11 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
 }
 
 impl<T: Number, const N: usize> Weights<N> for WeightsApart<T, N> {
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+    fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self {
         let mut link = *self;
         link.nee = self.uni;
-        multiply(&mut link.f, Sampled::splat(turn.value));
-        multiply(&mut link.uni, Sampled::splat(turn.density));
+        multiply(&mut link.f, Sampled::splat(outgoing.value));
+        multiply(&mut link.uni, Sampled::splat(outgoing.density));
         multiply(&mut link.nee, Sampled::splat(light_density));
         link
     }

@@ -13,7 +13,7 @@
 //! p_eq over the density P with which the path was made, but for what depends on the light that it ends at.
 
 use super::heuristic::{among_all, among_heroes};
-use super::{Collision, Kept, Turn, WalkWeights};
+use super::{Collision, DirectionSample, WalkWeights, WeightRecord};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -74,9 +74,9 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
         self.eq = Sampled::ZERO;
     }
 
-    fn leave(&mut self, turn: &Turn) {
-        let drawn = 1.0 / turn.density;
-        self.contribution *= turn.value * drawn;
+    fn leave(&mut self, outgoing: &DirectionSample) {
+        let drawn = 1.0 / outgoing.density;
+        self.contribution *= outgoing.value * drawn;
         self.nee = self.uni * drawn;
         self.eq *= drawn;
         self.ahead = self.uni;
@@ -96,8 +96,8 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
         self.contribution.abs().max_component() / self.uni.mean()
     }
 
-    fn kept(&self) -> Kept {
-        Kept {
+    fn kept(&self) -> WeightRecord {
+        WeightRecord {
             names: ["f/P", "p_uni/P", "p_nee/P"],
             values: [self.contribution.lanes(), self.uni.lanes(), self.nee.lanes()],
         }
@@ -139,11 +139,11 @@ impl<const N: usize> EquiangularWeights<N> {
 
     /// A connection from a vertex of the path: P is p_nee of the hero from here on.
     #[must_use]
-    pub fn connect(&self, turn: &Turn, light: LightDensities) -> Self {
+    pub fn connect(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
         let drawn = 1.0 / light.nee;
         Self {
-            contribution: self.contribution * (turn.value * drawn),
-            uni: self.uni * (turn.density * drawn),
+            contribution: self.contribution * (outgoing.value * drawn),
+            uni: self.uni * (outgoing.density * drawn),
             nee: self.uni,
             eq: self.eq * (light.eq * drawn),
             ahead: self.ahead,
@@ -153,11 +153,11 @@ impl<const N: usize> EquiangularWeights<N> {
     /// A connection from a vertex that was drawn by angle; of the light's densities only what comes after that
     /// vertex counts in `eq`. P is p_eq of the hero.
     #[must_use]
-    pub fn connect_by_angle(&self, turn: &Turn, light: LightDensities) -> Self {
+    pub fn connect_by_angle(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
         let drawn = 1.0 / light.eq;
         Self {
-            contribution: self.contribution * (turn.value * drawn),
-            uni: self.uni * (turn.density * drawn),
+            contribution: self.contribution * (outgoing.value * drawn),
+            uni: self.uni * (outgoing.density * drawn),
             nee: self.uni * (light.nee * drawn),
             eq: self.eq,
             ahead: self.ahead,

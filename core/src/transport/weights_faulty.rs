@@ -1,6 +1,6 @@
 //! Path weights with a planted mistake: right in everything but one rule.
 
-use super::{Collision, Kept, PathSettings, PathWeights, Turn, WalkWeights, Weights};
+use super::{Collision, DirectionSample, PathSettings, PathWeights, WalkWeights, WeightRecord, Weights};
 use crate::math::numbers_of_point;
 use crate::scene::{Fault, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
@@ -43,9 +43,9 @@ impl<const N: usize> FaultyWeights<N> {
     }
 
     /// What p_nee is multiplied by that it should not be, for a turn.
-    fn beyond(&self, turn: &Turn) -> f32 {
+    fn beyond(&self, outgoing: &DirectionSample) -> f32 {
         match self.fault {
-            Fault::PhaseInBoth => turn.density,
+            Fault::PhaseInBoth => outgoing.density,
             Fault::RouletteOnOneTechnique => self.survived,
             _ => 1.0,
         }
@@ -86,9 +86,9 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
         self.right.reflect(albedo);
     }
 
-    fn leave(&mut self, turn: &Turn) {
-        self.right.leave(turn);
-        self.right.nee *= self.beyond(turn);
+    fn leave(&mut self, outgoing: &DirectionSample) {
+        self.right.leave(outgoing);
+        self.right.nee *= self.beyond(outgoing);
         self.nulls = 0;
     }
 
@@ -105,7 +105,7 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
         self.right.throughput()
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> WeightRecord {
         self.right.kept()
     }
 
@@ -119,9 +119,9 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
 }
 
 impl<const N: usize> Weights<N> for FaultyWeights<N> {
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
-        let mut link = Self { right: self.right.connect(turn, light_density), nulls: 0, ..*self };
-        link.right.nee *= self.beyond(turn);
+    fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self {
+        let mut link = Self { right: self.right.connect(outgoing, light_density), nulls: 0, ..*self };
+        link.right.nee *= self.beyond(outgoing);
         link
     }
 

@@ -8,7 +8,7 @@
 //! technique and event, and that no heuristic but the balance heuristic can be formed of them (Miller et al. 2019,
 //! equations 26–30). Where f_j is zero the quotients are infinite, and stay so.
 
-use super::{Collision, Kept, Turn, WalkWeights, Weights};
+use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
@@ -67,10 +67,10 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
         multiply(&mut self.uni, Sampled::ONE, albedo);
     }
 
-    fn leave(&mut self, turn: &Turn) {
+    fn leave(&mut self, outgoing: &DirectionSample) {
         self.nee = self.uni;
-        multiply(&mut self.nee, Sampled::ONE, Sampled::splat(turn.value));
-        multiply(&mut self.uni, Sampled::splat(turn.density), Sampled::splat(turn.value));
+        multiply(&mut self.nee, Sampled::ONE, Sampled::splat(outgoing.value));
+        multiply(&mut self.uni, Sampled::splat(outgoing.density), Sampled::splat(outgoing.value));
     }
 
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, _: Heuristics) -> R {
@@ -89,10 +89,10 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
     }
 
     /// Of the quotients of all pairs those by the contribution of the hero.
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> WeightRecord {
         let of_hero = |quotients: [Sampled<N>; N]| Sampled(quotients.map(|row| row.hero())).lanes();
         let (uni, nee) = (of_hero(self.uni), of_hero(self.nee));
-        Kept { names: ["p_uni/f1", "p_nee/f1", "p_uni1/f"], values: [uni, nee, self.uni[0].lanes()] }
+        WeightRecord { names: ["p_uni/f1", "p_nee/f1", "p_uni1/f"], values: [uni, nee, self.uni[0].lanes()] }
     }
 
     fn is_dark(&self) -> bool {
@@ -105,11 +105,11 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
 }
 
 impl<const N: usize> Weights<N> for WeightsPairwise<N> {
-    fn connect(&self, turn: &Turn, light_density: f32) -> Self {
+    fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self {
         let mut link = *self;
         link.nee = self.uni;
-        multiply(&mut link.nee, Sampled::splat(light_density), Sampled::splat(turn.value));
-        multiply(&mut link.uni, Sampled::splat(turn.density), Sampled::splat(turn.value));
+        multiply(&mut link.nee, Sampled::splat(light_density), Sampled::splat(outgoing.value));
+        multiply(&mut link.uni, Sampled::splat(outgoing.density), Sampled::splat(outgoing.value));
         link
     }
 

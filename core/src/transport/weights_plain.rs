@@ -5,7 +5,7 @@ use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
 use crate::spectrum::Sampled;
 use crate::transport::Collision;
-use crate::transport::Turn;
+use crate::transport::DirectionSample;
 use crate::transport::Weights;
 use glam::Vec3;
 use proptest::array::uniform;
@@ -55,8 +55,12 @@ fn rotated<const N: usize>(values: [f32; N], hero: usize) -> [f32; N] {
 
 impl<const N: usize> Place<N> {
     pub fn rotated(&self, hero: usize) -> Self {
-        let turn = |values| rotated(values, hero);
-        Self { extinction: turn(self.extinction), albedo: turn(self.albedo), majorant: turn(self.majorant) }
+        let outgoing = |values| rotated(values, hero);
+        Self {
+            extinction: outgoing(self.extinction),
+            albedo: outgoing(self.albedo),
+            majorant: outgoing(self.majorant),
+        }
     }
 
     pub fn collision(&self, absorption: Absorption) -> Collision<N> {
@@ -110,13 +114,13 @@ const VALUE: f64 = 0.6;
 
 impl<const N: usize> Step<N> {
     /// The turn of a path at a vertex.
-    fn turn(&self) -> Option<Turn> {
+    fn outgoing(&self) -> Option<DirectionSample> {
         let (value, density) = match self {
             Self::Scatter(_, density) => (VALUE as f32 * density, *density),
             Self::Reflect(_, density) => (*density, *density),
             _ => return None,
         };
-        Some(Turn { direction: Vec3::Z, value, density })
+        Some(DirectionSample { direction: Vec3::Z, value, density })
     }
 }
 
@@ -132,11 +136,11 @@ pub(super) struct Plain<const N: usize> {
 impl<const N: usize> Events<N> {
     /// The same path with another component as the hero.
     pub fn rotated(&self, hero: usize) -> Self {
-        let turn = |steps: &[Step<N>]| steps.iter().map(|step| step.rotated(hero)).collect();
+        let outgoing = |steps: &[Step<N>]| steps.iter().map(|step| step.rotated(hero)).collect();
         Self {
-            before: turn(&self.before),
+            before: outgoing(&self.before),
             vertex: self.vertex.rotated(hero),
-            after: turn(&self.after),
+            after: outgoing(&self.after),
             ..*self
         }
     }
@@ -157,8 +161,8 @@ impl<const N: usize> Events<N> {
             Step::Survive(q) => path.survive(*q),
         }
         // The last vertex is left by one technique or the other.
-        if let Some(turn) = step.turn() {
-            path.leave(&turn);
+        if let Some(outgoing) = step.outgoing() {
+            path.leave(&outgoing);
         }
     }
 
@@ -184,8 +188,8 @@ impl<const N: usize> Events<N> {
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
             other => panic!("{other:?} is no vertex"),
         }
-        let turn = self.vertex.turn().expect("a vertex turns the path");
-        let mut link = path.connect(&turn, self.light);
+        let outgoing = self.vertex.outgoing().expect("a vertex turns the path");
+        let mut link = path.connect(&outgoing, self.light);
         for step in &self.after {
             match step {
                 Step::Pass { majorant, distance } => link.pass(Sampled(*majorant) * *distance),

@@ -9,9 +9,9 @@ use crate::math::Sampler;
 use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::{Absorption, Heuristic, Heuristics};
 use crate::spectrum::Sampled;
-use crate::transport::Turn;
+use crate::transport::DirectionSample;
 use crate::transport::{
-    Collision, Event, Trace, WalkWeights, Wanted, Weights, WeightsApart, WeightsPairwise,
+    CancelToken, Collision, Event, Trace, WalkWeights, Weights, WeightsApart, WeightsPairwise,
 };
 use glam::Vec3;
 use plain::{Events, events};
@@ -237,15 +237,15 @@ fn a_hundred_thousand_events_stay_finite() {
         let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };
         let coefficients = Coefficients::new(extinction, Sampled::ONE, &segment);
         let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
-        let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), Wanted::ALWAYS);
-        let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
+        let mut trace = Trace::new(Sampler::new(1, hero as u64, 0), CancelToken::NEVER);
+        let outgoing = DirectionSample { direction: Vec3::Z, value: 0.08, density: 0.08 };
         let mut path = PathWeights::CAMERA;
         for _ in 0..100_000 {
             path.pass(majorant * (trace.sampler.next_optical_depth() / majorant.hero()));
             let link = if collision.draw_event(&mut trace) == Event::Scattering {
                 path.scatter(&collision);
-                let link = path.connect(&turn, 40.0);
-                path.leave(&turn);
+                let link = path.connect(&outgoing, 40.0);
+                path.leave(&outgoing);
                 link
             } else {
                 path.null(&collision);
@@ -273,20 +273,22 @@ fn products_apart_overflow_where_quotients_do_not() {
         MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false, watched: false };
     let coefficients = Coefficients::new(extinction, Sampled::splat(0.99), &segment);
     let collision = Collision::new(Vec3::ZERO, coefficients, Absorption::Weighted.into());
-    let turn = Turn { direction: Vec3::Z, value: 0.08, density: 0.08 };
-    fn fly<W: Weights<4>>(collision: &Collision<4>, turn: &Turn) -> Sampled<4> {
+    let outgoing = DirectionSample { direction: Vec3::Z, value: 0.08, density: 0.08 };
+    fn fly<W: Weights<4>>(collision: &Collision<4>, outgoing: &DirectionSample) -> Sampled<4> {
         let mut path = W::CAMERA;
         for _ in 0..40 {
             path.pass(collision.coefficients.majorant * (0.2 / 480.0));
             path.scatter(collision);
-            path.leave(turn);
+            path.leave(outgoing);
         }
         path.combined(Sampled::ONE, 1.0, BALANCE)
     }
-    let single = fly::<WeightsApart<f32, 4>>(&collision, &turn);
+    let single = fly::<WeightsApart<f32, 4>>(&collision, &outgoing);
     assert!(single.0.iter().any(|value| !value.is_finite()), "{single:?}");
-    let expected = fly::<WeightsApart<f64, 4>>(&collision, &turn);
-    for value in [fly::<PathWeights<4>>(&collision, &turn), fly::<WeightsPairwise<4>>(&collision, &turn)] {
+    let expected = fly::<WeightsApart<f64, 4>>(&collision, &outgoing);
+    for value in
+        [fly::<PathWeights<4>>(&collision, &outgoing), fly::<WeightsPairwise<4>>(&collision, &outgoing)]
+    {
         let near = value.zip(expected, |a, b| (a / b - 1.0).abs()).max_component();
         assert!(near < 1e-4, "{value:?} {expected:?}");
     }

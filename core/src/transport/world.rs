@@ -1,8 +1,11 @@
 //! A scene at the components of one path: what an estimator asks.
 
-use super::{Collision, Company, EventRule, Guide, Note, Technique, Turn, Turns, Vertex, Walk, WalkWeights};
+use super::{
+    Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext, Technique, Vertex,
+    Walk, WalkWeights,
+};
 use crate::light::{Emitter, LobeParts};
-use crate::math::{Beside, Ray, Sampler};
+use crate::math::{Ray, Sampler, SideStream};
 use crate::medium::LocalMedium;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
@@ -70,7 +73,7 @@ pub struct Trace<'a> {
     pub lookups: u64,
     /// Collisions at which the extinction exceeded the majorant.
     pub exceeded: u64,
-    company: Company<'a>,
+    context: PathContext<'a>,
     steps: u32,
     stopped: bool,
 }
@@ -78,14 +81,14 @@ pub struct Trace<'a> {
 impl<'a> Trace<'a> {
     /// A path that has cost nothing yet.
     #[must_use]
-    pub fn new(sampler: Sampler, company: impl Into<Company<'a>>) -> Self {
-        let connection = sampler.beside_walk(Beside::Connection);
+    pub fn new(sampler: Sampler, context: impl Into<PathContext<'a>>) -> Self {
+        let connection = sampler.side_stream(SideStream::Connection);
         Self {
             sampler,
             connection,
             lookups: 0,
             exceeded: 0,
-            company: company.into(),
+            context: context.into(),
             steps: 0,
             stopped: false,
         }
@@ -93,20 +96,20 @@ impl<'a> Trace<'a> {
 
     /// Begins something that is drawn beside the walk, by numbers of its own.
     #[inline]
-    pub fn start_beside(&mut self, what: Beside) {
-        self.connection = self.sampler.beside_walk(what);
+    pub fn start_side_stream(&mut self, what: SideStream) {
+        self.connection = self.sampler.side_stream(what);
     }
 
     /// Tells a step to whoever looks on.
     #[inline(always)]
     pub fn tell(&mut self, note: impl FnOnce() -> Note) {
-        self.company.tell(note);
+        self.context.tell(note);
     }
 
     /// Counts a collision or a vertex; true once the path is not wanted any more, and from then on.
     pub fn must_stop(&mut self) -> bool {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(ASK_EVERY) && !self.company.wanted.yes() {
+        if self.steps.is_multiple_of(ASK_EVERY) && !self.context.cancel.is_active() {
             self.stopped = true;
         }
         self.stopped
@@ -242,13 +245,13 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// What directions are drawn from.
     #[must_use]
     #[inline]
-    pub fn turns(&self) -> Turns<'_> {
+    pub fn directions(&self) -> DirectionSampler<'_> {
         let guide = match self.settings.directions {
             DirectionSampling::Phase => None,
             DirectionSampling::TowardsLights => self.scene.lobes.as_ref().map(Guide::Lobes),
             DirectionSampling::Product => Some(Guide::Product),
         };
-        Turns { phase: &self.scene.phase, guide }
+        DirectionSampler { phase: &self.scene.phase, guide }
     }
 
     /// Samples the direction in which a path leaves a vertex, multiplies it into the weights and returns the next ray.
@@ -259,20 +262,20 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         weights: &mut impl WalkWeights<N>,
         trace: &mut Trace<'_>,
     ) -> Ray {
-        let turn = self.draw_turn(vertex, trace);
-        weights.leave(&turn);
-        Ray { origin: vertex.point(), direction: turn.direction }
+        let outgoing = self.sample_outgoing(vertex, trace);
+        weights.leave(&outgoing);
+        Ray { origin: vertex.point(), direction: outgoing.direction }
     }
 
     /// Draws the turn of a path at a vertex.
     #[inline]
-    pub fn draw_turn(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Turn {
+    pub fn sample_outgoing(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> DirectionSample {
         let u = trace.sampler.direction();
-        let turn = self.turns().draw(vertex, u);
+        let outgoing = self.directions().draw(vertex, u);
         trace.sampler.start_vertex();
-        let ray = Ray { origin: vertex.point(), direction: turn.direction };
-        trace.tell(move || Note::Leave { ray, u, value: turn.value, density: turn.density });
-        turn
+        let ray = Ray { origin: vertex.point(), direction: outgoing.direction };
+        trace.tell(move || Note::Leave { ray, u, value: outgoing.value, density: outgoing.density });
+        outgoing
     }
 
     /// Whether a path continues beyond its vertex number `vertices`: it is within the depth limit, can still

@@ -2,7 +2,7 @@
 
 use super::Arguments;
 use crate::cli::{Failure, options, source};
-use majorant_core::bench::{Entrant, ReferencePlan, Subject};
+use majorant_core::bench::{Candidate, ReferencePlan, Subject};
 use majorant_core::compare;
 use majorant_core::estimator::{self, Entry};
 use majorant_core::io::{embedded, scene_file};
@@ -48,7 +48,7 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
                 .unwrap_or((REFERENCE_TIMES * arguments.seconds).max(REFERENCE_LEAST)),
         },
     };
-    let entrants = estimators.iter().map(|entry| Entrant::of(entry, &doc)).collect();
+    let entrants = estimators.iter().map(|entry| Candidate::of(entry, &doc)).collect();
     Ok(Subject { name: title(name), doc, library: source.resources, entrants, reference })
 }
 

@@ -12,7 +12,7 @@ use crate::model::{Work, work_after};
 use majorant_core::check::{self, Case, Check, CheckError, Effort, Row, Verdict};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -113,7 +113,7 @@ impl SelfCheck {
         let (deep, generation) = (self.deep, Arc::new(AtomicU64::new(0)));
         let (sender, news) = channel();
         let theirs = Arc::clone(&generation);
-        let work = move || work(own, deep, Wanted::new(&theirs, 0), &sender, &wake);
+        let work = move || work(own, deep, CancelToken::new(&theirs, 0), &sender, &wake);
         match std::thread::Builder::new().name("majorant-self-check".into()).spawn(work) {
             Ok(thread) => self.running = Some(Running { generation, news, thread }),
             Err(error) => self.ending = Some(Ending::Failed(format!("no thread could be started: {error}"))),
@@ -218,7 +218,7 @@ fn plan(own: Option<(String, SceneDoc)>, deep: bool) -> Result<Check, CheckError
 fn work(
     own: Option<(String, SceneDoc)>,
     deep: bool,
-    wanted: Wanted<'_>,
+    cancel: CancelToken<'_>,
     news: &Sender<News>,
     wake: &dyn Fn(),
 ) {
@@ -228,7 +228,7 @@ fn work(
         wake();
     };
     let result = plan(own, deep).and_then(|check| {
-        check.run(wanted, |p| {
+        check.run(cancel, |p| {
             let what = format!("{}  ·  {}", p.scene, p.estimator);
             tell(News::At { done: p.done, total: p.total, what });
             if !p.rows.is_empty() {

@@ -232,7 +232,7 @@ fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
             (Bookkeeping::ApartF64, "f64", "f and p apart in double precision: overflow later"),
             (Bookkeeping::Pairwise, "p/f", "Miller's quotients of all pairs: the balance heuristic only"),
         ];
-        segmented(ui, "Books", &mut doc.bookkeeping, &options);
+        segmented(ui, "Weights", &mut doc.bookkeeping, &options);
     });
     let overflows = doc.bookkeeping == Bookkeeping::ApartF32;
     let balanced = doc.heuristics == Heuristics::default();

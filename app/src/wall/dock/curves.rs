@@ -3,7 +3,7 @@
 use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
-use crate::wall::analyst::settled_law;
+use crate::wall::analysis::settled_law;
 use egui::{RichText, Ui};
 use egui_plot::{FilledArea, Line, LineStyle, PlotPoint, PlotPoints, Points};
 use majorant_core::compare::curve::{Axis, Point, PowerLaw};

@@ -108,7 +108,7 @@ fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence
         }
     };
     let answer =
-        cx.inspector.noise.ask(&question, wake, move |wanted| probe.evidence(region, chroma, wanted));
+        cx.inspector.noise.ask(&question, wake, move |cancel| probe.evidence(region, chroma, cancel));
     answer.filter(|(_, current)| *current).map(|(evidence, _)| evidence)
 }
 

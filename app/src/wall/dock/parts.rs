@@ -62,7 +62,7 @@ impl Tab for Parts {
             return empty(ui, "The image is being taken apart.");
         };
         let view = cx.doc.view_doc(cx.wall.selected()).unwrap_or_else(|| cx.doc.clone()).view;
-        hang(ui, cx, &parts, &view);
+        upload(ui, cx, &parts, &view);
         let region = cx.doc.compare.region;
         let inside = |x: usize, y: usize| {
             region.is_none_or(|[x0, y0, x1, y1]| {
@@ -82,7 +82,7 @@ impl Tab for Parts {
                     let mean = current.then(|| layer.whole().iter().sum::<f64>() / 3.0);
                     let lit = shown.is_none_or(|shown| shown == k);
                     let tint = if lit && current { 255 } else { 110 };
-                    part_ui(ui, cx.inspector.parts.hung.get(k), layer, (mean, share), size, tint);
+                    part_ui(ui, cx.inspector.parts.uploaded.get(k), layer, (mean, share), size, tint);
                 }
             });
         });
@@ -156,14 +156,14 @@ fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     state.errand.ask(
         &question,
         move || ctx.request_repaint(),
-        move |wanted| probe.strategies(split, 0..spp, wanted),
+        move |cancel| probe.strategies(split, 0..spp, cancel),
     )
 }
 
 /// Brings the textures in line with an answer.
-fn hang(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
+fn upload(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
     let state = &mut cx.inspector.parts;
-    let same = state.hung_of.as_ref().is_some_and(|hung| Arc::ptr_eq(hung, parts));
+    let same = state.hung_of.as_ref().is_some_and(|uploaded| Arc::ptr_eq(uploaded, parts));
     if same && state.exposure == view.exposure_ev && state.hung_as_shares == state.as_shares {
         return;
     }
@@ -185,7 +185,7 @@ fn hang(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
         let image = ColorImage::from_rgb([parts.width, parts.height], &bytes);
         ui.ctx().load_texture(format!("part {k}"), image, TextureOptions::LINEAR)
     };
-    state.hung = parts.layers.iter().enumerate().map(texture).collect();
+    state.uploaded = parts.layers.iter().enumerate().map(texture).collect();
     (state.hung_of, state.exposure) = (Some(Arc::clone(parts)), view.exposure_ev);
 }
 

@@ -95,7 +95,7 @@ fn summary(samples: &[PixelSample]) -> (f64, f64, f64) {
 const PER_DECADE: f64 = 5.0;
 
 /// Shares of samples by their size, both by decades: a heavy tail shows as a slow slope to the right.
-fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
+fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analysis::PixelSamples]) {
     plot("histogram", ui, ("sample (grey)", "share"), (true, true)).legend(legend()).show(ui, |plot| {
         for view in views {
             let total = view.samples.len().max(1) as f64;
@@ -122,7 +122,7 @@ fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
 }
 
 /// Running means with their standard errors.
-fn history_ui(ui: &mut Ui, views: &[crate::wall::analyst::PixelSamples]) {
+fn history_ui(ui: &mut Ui, views: &[crate::wall::analysis::PixelSamples]) {
     plot("history", ui, ("samples", "mean ± SE"), (true, false)).legend(legend()).show(ui, |plot| {
         for view in views {
             let (mut n, mut mean, mut m2, mut next) = (0.0f64, 0.0f64, 0.0f64, 1.0f64);

@@ -197,7 +197,7 @@ fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> 
             ctx.request_repaint();
         }
     };
-    let answer = state.errand.ask(&question, wake, move |wanted| {
+    let answer = state.errand.ask(&question, wake, move |cancel| {
         let along = match through {
             Through::Shape(shape) => Along::Shape { shape, extinction, cells, majorant_factor },
             Through::Pixel => {
@@ -208,7 +208,7 @@ fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> 
                 Along::Medium { scene, ray, mode, component }
             }
         };
-        RayBench::new(&along, &plan, wanted)
+        RayBench::new(&along, &plan, cancel)
     });
     answer.filter(|(_, current)| *current).map(|(bench, _)| bench)
 }

@@ -3,7 +3,7 @@
 use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
 use crate::theme::{Palette, view_colour};
-use crate::view::developer::Sight;
+use crate::view::tone_mapper::PictureId;
 use egui::{RichText, Ui};
 use egui_plot::{FilledArea, Line, PlotPoints, VLine};
 use majorant_core::compare::label;
@@ -42,7 +42,7 @@ fn rows(cx: &Cx<'_>) -> Vec<Row> {
             rows.push(Row { name: label(*number), view: Some(*number), grey, error });
         }
     }
-    if cx.wall.sights().contains(&Sight::Reference)
+    if cx.wall.pictures_shown().contains(&PictureId::Reference)
         && let Some(reference) = &experiment.reference
         && let Some(grey) = line(reference.mean(), reference.width)
     {

@@ -3,7 +3,7 @@
 use super::super::provenance::Provenance;
 use super::super::slot::Slot;
 use super::Wall;
-use crate::view::developer::{MapPrint, Print, Sight};
+use crate::view::tone_mapper::{MapImage, PictureId, ViewImage};
 use egui::{Context, TextureFilter, TextureHandle, TextureOptions};
 use majorant_core::compare::Reference;
 use majorant_core::film::Snapshot;
@@ -19,13 +19,13 @@ const TEXTURE: TextureOptions = TextureOptions {
 };
 
 /// A print on the graphics card.
-pub struct Hung {
+pub struct UploadedImage {
     /// The pixels.
     pub texture: TextureHandle,
     /// The numbers behind them; absent for the reference.
     pub snapshot: Option<Arc<Snapshot>>,
     /// What it shows, if it is a map.
-    pub map: Option<Arc<MapPrint>>,
+    pub map: Option<Arc<MapImage>>,
     /// The session's view, if it is one's.
     id: Option<ViewId>,
     /// The reference, if it is that.
@@ -33,48 +33,48 @@ pub struct Hung {
 }
 
 impl Wall {
-    pub(super) fn hang(&mut self, ctx: &Context, sight: Sight, print: Print) {
-        let Print { image, snapshot, id, reference, map } = print;
+    pub(super) fn upload(&mut self, ctx: &Context, picture: PictureId, print: ViewImage) {
+        let ViewImage { image, snapshot, id, reference, map } = print;
         // It may have been ordered before the views changed their places.
-        if let Sight::View(view) = sight
+        if let PictureId::View(view) = picture
             && self.slots.get(view).map(|slot| slot.id) != id
         {
             return;
         }
-        let texture = match self.hung.remove(&sight) {
-            Some(Hung { mut texture, .. }) => {
+        let texture = match self.uploaded.remove(&picture) {
+            Some(UploadedImage { mut texture, .. }) => {
                 texture.set(image, TEXTURE);
                 texture
             }
-            None => ctx.load_texture(format!("{sight:?}"), image, TEXTURE),
+            None => ctx.load_texture(format!("{picture:?}"), image, TEXTURE),
         };
-        self.hung.insert(sight, Hung { texture, snapshot, map, id, reference });
+        self.uploaded.insert(picture, UploadedImage { texture, snapshot, map, id, reference });
     }
 
     /// Pictures move with their views.
     pub(super) fn rehang(&mut self) {
-        let views = |sight: &Sight| matches!(sight, Sight::View(_));
-        let (hung, rest): (BTreeMap<_, Hung>, _) =
-            std::mem::take(&mut self.hung).into_iter().partition(|(sight, _)| views(sight));
-        self.hung = rest;
-        for (_, hung) in hung {
-            if let Some(view) = self.slots.iter().position(|slot| Some(slot.id) == hung.id) {
-                self.hung.insert(Sight::View(view), hung);
+        let views = |picture: &PictureId| matches!(picture, PictureId::View(_));
+        let (uploaded, rest): (BTreeMap<_, UploadedImage>, _) =
+            std::mem::take(&mut self.uploaded).into_iter().partition(|(picture, _)| views(picture));
+        self.uploaded = rest;
+        for (_, uploaded) in uploaded {
+            if let Some(view) = self.slots.iter().position(|slot| Some(slot.id) == uploaded.id) {
+                self.uploaded.insert(PictureId::View(view), uploaded);
             }
         }
     }
 
     /// A picture on the wall; none if what hangs is a map that is not wanted now.
     #[must_use]
-    pub fn hung(&self, sight: Sight) -> Option<&Hung> {
-        let wanted = self.map().map(|map| map.id);
-        self.hung.get(&sight).filter(|hung| {
+    pub fn uploaded(&self, picture: PictureId) -> Option<&UploadedImage> {
+        let cancel = self.map().map(|map| map.id);
+        self.uploaded.get(&picture).filter(|uploaded| {
             // What was the reference is none any more once there is another, or none yet.
-            if sight == Sight::Reference && !self.reference.is_source_of(hung.reference.as_ref()) {
+            if picture == PictureId::Reference && !self.reference.is_source_of(uploaded.reference.as_ref()) {
                 return false;
             }
-            let map = hung.map.as_ref().map(|print| print.map.id);
-            map.is_none() || map == wanted || wanted.is_none()
+            let map = uploaded.map.as_ref().map(|print| print.map.id);
+            map.is_none() || map == cancel || cancel.is_none()
         })
     }
 
@@ -83,8 +83,8 @@ impl Wall {
         let shown = |(view, slot): (usize, &Slot)| {
             let current = slot.state.generation;
             // A picture of an older submission may hang for a moment: then nothing describes it and its document.
-            let hung = self.hung.get(&Sight::View(view)).and_then(|h| h.snapshot.as_ref());
-            hung.is_none_or(|hung| hung.generation == current).then_some(current)
+            let uploaded = self.uploaded.get(&PictureId::View(view)).and_then(|h| h.snapshot.as_ref());
+            uploaded.is_none_or(|uploaded| uploaded.generation == current).then_some(current)
         };
         Provenance {
             views: self.slots.iter().enumerate().map(shown).collect(),

@@ -1,6 +1,6 @@
 //! What the rows of a scene answer.
 
-use super::{Question, Yardstick};
+use super::{Criterion, Question};
 use crate::bench::{Interval, Row};
 use serde::Serialize;
 
@@ -56,10 +56,10 @@ impl Question {
         let row = |id: &str| rows.iter().find(|row| row.estimator == id);
         let (variant, against) = (row(self.variant)?, row(self.against)?);
         let (ratio, [own_tail, other_tail]) = match self.yardstick {
-            Yardstick::Efficiency => {
+            Criterion::Efficiency => {
                 (variant.speedup_over(against), [variant.heavy_tailed, against.heavy_tailed])
             }
-            Yardstick::Pace => (variant.pace_over(against), [false; 2]),
+            Criterion::Pace => (variant.pace_over(against), [false; 2]),
         };
         // An outlier on the losing side makes its loss no smaller: a sample that missed some has too little error.
         let outcome = match ratio {

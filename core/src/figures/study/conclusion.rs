@@ -1,7 +1,7 @@
 //! Sentences from numbers, and from nothing else.
 
 use super::variant::name;
-use super::{Answer, Outcome, Question, SceneStudy, TOPICS, Topic, Yardstick};
+use super::{Answer, Criterion, Outcome, Question, SceneStudy, TOPICS, Topic};
 use crate::compare::report::words;
 
 /// What the study says: the answer to the report's closing question, a paragraph per topic, what did not run, and
@@ -109,8 +109,8 @@ fn paragraph(topic: &Topic, studies: &[SceneStudy]) -> Option<String> {
     let sentence = |question: &Question| {
         let votes = Votes::of(question, studies)?;
         let what = match question.yardstick {
-            Yardstick::Efficiency => "times the efficiency",
-            Yardstick::Pace => "times the paths per second",
+            Criterion::Efficiency => "times the efficiency",
+            Criterion::Pace => "times the paths per second",
         };
         Some(format!(
             "{} has {} {what} of {}: {}.",

@@ -18,7 +18,7 @@ mod variant;
 pub use answer::{Answer, Outcome};
 pub use conclusion::conclusion;
 pub use matrix::{Line, Matrix};
-pub use question::{Question, TOPICS, Topic, Yardstick, questions};
+pub use question::{Criterion, Question, TOPICS, Topic, questions};
 pub use variant::{VARIANTS, Variant, name};
 
 use super::render::Rendered;

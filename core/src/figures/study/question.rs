@@ -19,12 +19,12 @@ pub struct Question {
     /// What it is held against.
     pub against: &'static str,
     /// By what.
-    pub yardstick: Yardstick,
+    pub yardstick: Criterion,
 }
 
 /// What two variants are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Yardstick {
+pub enum Criterion {
     /// 1/(relMSE · CPU seconds): how soon the same error is reached.
     Efficiency,
     /// Paths per CPU second: for variants whose paths are worth the same, where it is all there is and is known much
@@ -32,7 +32,7 @@ pub enum Yardstick {
     Pace,
 }
 
-impl Yardstick {
+impl Criterion {
     /// As a unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
@@ -44,11 +44,11 @@ impl Yardstick {
 }
 
 const fn efficiency(id: &'static str, variant: &'static str, against: &'static str) -> Question {
-    Question { id, variant, against, yardstick: Yardstick::Efficiency }
+    Question { id, variant, against, yardstick: Criterion::Efficiency }
 }
 
 const fn pace(id: &'static str, variant: &'static str, against: &'static str) -> Question {
-    Question { id, variant, against, yardstick: Yardstick::Pace }
+    Question { id, variant, against, yardstick: Criterion::Pace }
 }
 
 /// Every topic; the first question of the first is the report's closing one.

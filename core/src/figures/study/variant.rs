@@ -1,6 +1,6 @@
 //! Who takes part.
 
-use crate::bench::Entrant;
+use crate::bench::Candidate;
 use crate::estimator;
 use crate::io::scene_file;
 use crate::scene::SceneDoc;
@@ -77,7 +77,7 @@ impl Variant {
     ///
     /// # Errors
     /// Why it cannot run on that scene, as a sentence.
-    pub fn entrant(&self, scene: &SceneDoc) -> Result<Entrant, String> {
+    pub fn entrant(&self, scene: &SceneDoc) -> Result<Candidate, String> {
         let mut edits = vec![format!("estimator.id={:?}", self.estimator)];
         edits.extend(self.set.iter().map(|edit| (*edit).to_owned()));
         let doc = scene_file::override_keys(scene, &edits).map_err(|e| e.to_string())?;
@@ -85,7 +85,7 @@ impl Variant {
             return Err(problem.to_string());
         }
         let entry = estimator::find(self.estimator).ok_or("there is no such estimator")?;
-        let entrant = Entrant {
+        let entrant = Candidate {
             name: self.id.to_owned(),
             entry,
             settings: doc.estimator.clone(),

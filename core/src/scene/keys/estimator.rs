@@ -87,7 +87,7 @@ pub(super) const KEYS: &[Key] = &[
         "estimator.bookkeeping",
         Type::Choice(&["rescaled", "apart-f32", "apart-f64", "pairwise"]),
         "\"rescaled\"",
-        "Books",
+        "Weights",
         "How a path's contribution f and densities p are kept",
     )
     .biases(&OVERFLOW),

@@ -73,7 +73,7 @@ pub(super) const KEYS: &[Key] = &[
         "lights.*.rotate_deg",
         Type::Number(COORDINATE),
         Is("0.0"),
-        "Turn",
+        "Rotation",
         "Turns the picture about the y axis",
     )
     .unit("°")

@@ -147,9 +147,9 @@ fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>>
                 ctx.request_repaint();
             }
         },
-        move |wanted| {
-            let recording: Recording = probe.under(entry).record(at, wanted);
-            wanted.yes().then(|| Replayed { ledger: Ledger::new(&recording), recording })
+        move |cancel| {
+            let recording: Recording = probe.under(entry).record(at, cancel);
+            cancel.is_active().then(|| Replayed { ledger: Ledger::new(&recording), recording })
         },
     );
     answer.filter(|(_, current)| *current).map(|(replayed, _)| replayed)

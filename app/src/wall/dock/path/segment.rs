@@ -10,7 +10,7 @@ use majorant_core::math::Ray;
 use majorant_core::scene::Mode;
 use majorant_core::spectrum::Carried;
 use majorant_core::transmittance::TransmittanceKind;
-use majorant_core::transport::{Note, Wanted};
+use majorant_core::transport::{CancelToken, Note};
 use std::sync::Arc;
 
 /// Height of the strip.
@@ -46,7 +46,7 @@ pub(super) fn segment_ui(ui: &Ui, cx: &mut Cx<'_>, replayed: &Arc<Replayed>, rec
         let along = Along::Medium { scene: probe.scene(), ray, mode, component };
         let kind = TransmittanceKind::ALONG_THE_PATH;
         let plan = BenchPlan { kind, estimates: 0, seed: 0, example: 0 };
-        let bench = RayBench::new(&along, &plan, Wanted::ALWAYS);
+        let bench = RayBench::new(&along, &plan, CancelToken::NEVER);
         state.segment = Some(Segment { of: Arc::clone(replayed), began, bench });
     }
     let font = FontId::proportional(11.0);

@@ -11,7 +11,7 @@ use super::sparse::{Leaf, SparseGrid};
 
 /// What a block brought to light.
 #[derive(Default)]
-struct Found {
+struct CollisionRecord {
     repaired: u64,
     negatives: u64,
     /// The first voxel below zero in the order of an array.
@@ -80,8 +80,8 @@ fn array_order([x, y, z]: [i32; 3]) -> [i32; 3] {
 }
 
 /// From z fastest to x fastest; what is inactive or not finite becomes zero.
-fn rearrange(values: &mut [f32], leaf: &Leaf, channels: usize) -> Found {
-    let mut found = Found { empty: true, ..Found::default() };
+fn rearrange(values: &mut [f32], leaf: &Leaf, channels: usize) -> CollisionRecord {
+    let mut found = CollisionRecord { empty: true, ..CollisionRecord::default() };
     let mut block = vec![0.0; values.len()];
     for entry in mask::ones(&leaf.active) {
         let [x, y, z] = mask::entry_offset(entry, 3, 1);

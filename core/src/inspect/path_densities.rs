@@ -2,11 +2,11 @@
 
 use super::product::{Product, Products, times};
 use crate::spectrum::Lanes;
-use crate::transport::{Found, Kept};
+use crate::transport::{CollisionRecord, WeightRecord};
 
 /// What a path contributes and how likely each technique makes it, as products over its events so far.
 #[derive(Clone, Copy)]
-pub(super) struct Books {
+pub(super) struct PathDensities {
     pub f: Products,
     pub uni: Products,
     pub nee: Products,
@@ -16,12 +16,12 @@ pub(super) struct Books {
     /// Whether all of it has densities.
     pub defined: bool,
     /// What the estimator keeps itself; `None` where it keeps nothing, or has not told yet.
-    pub kept: Option<Kept>,
+    pub kept: Option<WeightRecord>,
     /// The row of the event after which it has still to tell.
     pub awaiting: Option<usize>,
 }
 
-impl Books {
+impl PathDensities {
     pub const CAMERA: Self = Self {
         f: [Product::ONE; 4],
         uni: [Product::ONE; 4],
@@ -41,14 +41,14 @@ impl Books {
         }
     }
 
-    pub fn null(&mut self, c: &Found) {
+    pub fn null(&mut self, c: &CollisionRecord) {
         self.nulls += 1;
         times(&mut self.f, &c.null);
         times(&mut self.uni, &c.null_density);
         times(&mut self.nee, &c.majorant);
     }
 
-    pub fn scatter(&mut self, c: &Found) {
+    pub fn scatter(&mut self, c: &CollisionRecord) {
         times(&mut self.f, &c.scattering);
         times(&mut self.uni, &c.scattering_density);
     }
@@ -69,7 +69,7 @@ impl Books {
     }
 
     /// Le_j f_j over the mean of the densities, over components and techniques.
-    pub fn worth(&self, emitted: &Lanes, densities: &[&Products], count: usize, grey: bool) -> Option<Lanes> {
+    pub fn value(&self, emitted: &Lanes, densities: &[&Products], count: usize, grey: bool) -> Option<Lanes> {
         if !self.defined {
             return None;
         }

@@ -21,7 +21,7 @@ fn had(view: &Active, fairness: Fairness) -> f64 {
 
 /// Keeps the time of what is rendered in the background level with that of the contenders.
 #[derive(Debug, Default)]
-pub(super) struct Turns {
+pub(super) struct Scheduler {
     pub fairness: Fairness,
     /// CPU seconds that a contender has had on average, less those of the background.
     owed: f64,
@@ -30,7 +30,7 @@ pub(super) struct Turns {
 /// Background work is not owed more than this, however long there was none of it.
 const LONGEST_DEBT_SECONDS: f64 = 1.0;
 
-impl Turns {
+impl Scheduler {
     /// The next view to get a pass, with the most samples per pixel that it may take.
     pub fn next<K: Copy + Ord>(&self, views: &BTreeMap<K, Active>) -> Option<(K, u64)> {
         let runnable = || views.iter().filter(|(_, v)| v.runnable());
@@ -101,9 +101,9 @@ mod tests {
     const COSTS: [(f64, u64); 3] = [(0.001, 10), (0.004, 5), (0.01, 300)];
 
     /// Runs passes of at most `fitting` samples, as if they had cost what they should.
-    fn run(views: &mut BTreeMap<usize, Active>, turns: &mut Turns, passes: usize, fitting: u64) {
+    fn run(views: &mut BTreeMap<usize, Active>, scheduler: &mut Scheduler, passes: usize, fitting: u64) {
         for _ in 0..passes {
-            let (id, most) = turns.next(views).unwrap();
+            let (id, most) = scheduler.next(views).unwrap();
             let contenders = views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
             let view = views.get_mut(&id).unwrap();
             let count = fitting.min(most);
@@ -111,7 +111,7 @@ mod tests {
             view.spp += count;
             view.cpu_seconds += seconds * count as f64;
             view.tally.lookups += lookups * count;
-            turns.note(view.role, seconds * count as f64, contenders);
+            scheduler.note(view.role, seconds * count as f64, contenders);
         }
     }
 
@@ -124,8 +124,8 @@ mod tests {
     fn contenders_keep_level_in_what_the_comparison_is_fair_in() {
         for fairness in [Fairness::Time, Fairness::Samples, Fairness::Lookups] {
             let mut views: BTreeMap<usize, Active> = (0..3).map(|i| (i, view(Role::Contender))).collect();
-            let mut turns = Turns { fairness, ..Turns::default() };
-            run(&mut views, &mut turns, 600, 8);
+            let mut scheduler = Scheduler { fairness, ..Scheduler::default() };
+            run(&mut views, &mut scheduler, 600, 8);
             assert!(spread(&views, fairness) < 0.05, "{fairness:?}: {}", spread(&views, fairness));
             // In the other two they are not level: the costs differ.
             let other = if fairness == Fairness::Time { Fairness::Samples } else { Fairness::Time };
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn a_newcomer_catches_up_before_the_others_go_on() {
         let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
-        let mut turns = Turns { fairness: Fairness::Samples, ..Turns::default() };
-        run(&mut views, &mut turns, 100, 8);
+        let mut scheduler = Scheduler { fairness: Fairness::Samples, ..Scheduler::default() };
+        run(&mut views, &mut scheduler, 100, 8);
         let before: u64 = views.values().map(|v| v.spp).max().unwrap();
         views.insert(2, view(Role::Contender));
         while views[&2].spp < before {
-            run(&mut views, &mut turns, 1, 8);
+            run(&mut views, &mut scheduler, 1, 8);
         }
         assert_eq!(views.values().map(|v| v.spp).max(), Some(before), "exactly level, and nobody went ahead");
     }
@@ -150,15 +150,15 @@ mod tests {
     fn the_background_gets_one_contenders_share_and_all_of_it_once_they_are_done() {
         let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
         views.insert(2, view(Role::Background));
-        let mut turns = Turns::default();
-        run(&mut views, &mut turns, 3000, 8);
+        let mut scheduler = Scheduler::default();
+        run(&mut views, &mut scheduler, 3000, 8);
         let share = views[&2].cpu_seconds / views[&0].cpu_seconds;
         assert!((share - 1.0).abs() < 0.05, "{share}");
         for id in [0, 1] {
             views.get_mut(&id).unwrap().paused = true;
         }
         let before = views[&2].spp;
-        run(&mut views, &mut turns, 10, 8);
+        run(&mut views, &mut scheduler, 10, 8);
         assert_eq!(views[&2].spp, before + 80);
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 /// Keeps what is expensive to make.
-pub(super) struct Keeper {
+pub(super) struct JobCache {
     resources: Library,
     pools: BTreeMap<usize, Arc<ThreadPool>>,
     /// The newest frozen scenes, the newest last.
@@ -25,7 +25,7 @@ struct Frozen {
 /// Views of one scene may each have a majorant or camera of their own.
 const KEPT: usize = MAX_VIEWS + 1;
 
-impl Keeper {
+impl JobCache {
     pub fn new(resources: Library) -> Self {
         Self { resources, pools: BTreeMap::new(), frozen: Vec::new() }
     }

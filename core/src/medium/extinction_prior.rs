@@ -4,14 +4,14 @@ use crate::spectrum::Sampled;
 
 /// Extinction to be expected in the majorant cell of a point, per component and scene unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outlook<const N: usize> {
+pub struct ExtinctionPrior<const N: usize> {
     /// A lower bound of the extinction; zero if none is known.
     pub minorant: Sampled<N>,
     /// Its mean, roughly; zero if none is known.
     pub mean: Sampled<N>,
 }
 
-impl<const N: usize> Outlook<N> {
+impl<const N: usize> ExtinctionPrior<N> {
     /// Nothing is known.
     pub const UNKNOWN: Self = Self { minorant: Sampled::ZERO, mean: Sampled::ZERO };
 

@@ -12,7 +12,7 @@ const GUIDED: f32 = 0.3;
 
 /// Everything that directions are drawn from.
 #[derive(Clone, Copy, Debug)]
-pub struct Turns<'a> {
+pub struct DirectionSampler<'a> {
     /// The medium's phase function.
     pub phase: &'a Phase,
     /// What guides paths to the lights, if anything does.
@@ -30,7 +30,7 @@ pub enum Guide<'a> {
 
 /// A direction out of a vertex.
 #[derive(Clone, Copy, Debug)]
-pub struct Turn {
+pub struct DirectionSample {
     /// Where the path goes.
     pub direction: Vec3,
     /// Phase function or cosine lobe, per steradian.
@@ -39,18 +39,18 @@ pub struct Turn {
     pub density: f32,
 }
 
-impl Turns<'_> {
+impl DirectionSampler<'_> {
     /// Value and density of leaving a vertex in a direction.
     #[must_use]
     #[inline]
-    pub fn towards(&self, vertex: &Vertex, direction: Vec3) -> Turn {
+    pub fn towards(&self, vertex: &Vertex, direction: Vec3) -> DirectionSample {
         match vertex {
             Vertex::Medium { omega_in, .. } => {
                 self.mixed(vertex, direction, self.phase.density(*omega_in, direction))
             }
             Vertex::Surface { normal, .. } => {
                 let value = normal.dot(direction).max(0.0) * FRAC_1_PI;
-                Turn { direction, value, density: value }
+                DirectionSample { direction, value, density: value }
             }
         }
     }
@@ -58,7 +58,7 @@ impl Turns<'_> {
     /// Draws the direction that a path leaves a vertex in.
     #[must_use]
     #[inline]
-    pub fn draw(&self, vertex: &Vertex, mut u: Vec2) -> Turn {
+    pub fn draw(&self, vertex: &Vertex, mut u: Vec2) -> DirectionSample {
         match vertex {
             Vertex::Medium { omega_in, .. } => {
                 if self.guide.is_some() {
@@ -77,7 +77,7 @@ impl Turns<'_> {
             Vertex::Surface { normal, .. } => {
                 let local = cosine_direction(u);
                 let value = (local.z * FRAC_1_PI).max(f32::MIN_POSITIVE);
-                Turn { direction: Frame::about(*normal).to_world(local), value, density: value }
+                DirectionSample { direction: Frame::about(*normal).to_world(local), value, density: value }
             }
         }
     }
@@ -94,7 +94,7 @@ impl Turns<'_> {
 
     /// The density of a mixture, of which the phase function has one share and the guide the other.
     #[inline]
-    fn mixed(&self, vertex: &Vertex, direction: Vec3, value: f32) -> Turn {
+    fn mixed(&self, vertex: &Vertex, direction: Vec3, value: f32) -> DirectionSample {
         let guided = match (self.guide, vertex) {
             (Some(Guide::Lobes(lobes)), _) => Some(lobes.density(vertex.point(), direction)),
             (Some(Guide::Product), Vertex::Medium { parts: Some(parts), .. }) => {
@@ -103,6 +103,6 @@ impl Turns<'_> {
             _ => None,
         };
         let density = guided.map_or(value, |guided| value + GUIDED * (guided - value));
-        Turn { direction, value, density }
+        DirectionSample { direction, value, density }
     }
 }

@@ -1,6 +1,6 @@
 //! Develops pictures and maps on a thread of its own, so that no frame waits for it.
 //!
-//! The session rings a [`Bell`] when it has something new; the developer looks, at most thirty times a
+//! The session rings a [`Waker`] when it has something new; the developer looks, at most thirty times a
 //! second and never more often than it can afford, develops what the window has ordered and asks for a
 //! repaint.
 
@@ -22,7 +22,7 @@ const SHARE: u32 = 6;
 
 /// What there is to be looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Sight {
+pub enum PictureId {
     /// A view of the document, from 0.
     View(usize),
     /// What errors are measured against.
@@ -52,9 +52,9 @@ pub struct Order {
     /// What errors are measured against.
     pub reference: Option<Arc<Reference>>,
     /// Pictures as they are, each with its display.
-    pub pictures: Vec<(Sight, ViewDoc)>,
+    pub pictures: Vec<(PictureId, ViewDoc)>,
     /// Or this map of these.
-    pub maps: Option<(&'static Map, Vec<Sight>)>,
+    pub maps: Option<(&'static Map, Vec<PictureId>)>,
 }
 
 impl Order {
@@ -67,7 +67,7 @@ impl Order {
     fn is_like(&self, other: &Self) -> bool {
         let views =
             |o: &Self| o.views.iter().map(|v| (v.number, v.id, Arc::as_ptr(&v.doc))).collect::<Vec<_>>();
-        let maps = |o: &Self| o.maps.as_ref().map(|(map, sights)| (map.id, sights.clone()));
+        let maps = |o: &Self| o.maps.as_ref().map(|(map, pictures_shown)| (map.id, pictures_shown.clone()));
         Arc::ptr_eq(&self.doc, &other.doc)
             && views(self) == views(other)
             && self.reference.as_ref().map(Arc::as_ptr) == other.reference.as_ref().map(Arc::as_ptr)
@@ -78,7 +78,7 @@ impl Order {
 
 /// A picture ready to be shown.
 #[derive(Clone, Debug)]
-pub struct Print {
+pub struct ViewImage {
     /// The pixels.
     pub image: ColorImage,
     /// The view's numbers that it was made from; absent for the reference.
@@ -88,12 +88,12 @@ pub struct Print {
     /// The reference that it was made from, if it is one.
     pub reference: Option<Arc<Reference>>,
     /// What it shows, if it is a map: the map's id, values and range.
-    pub map: Option<Arc<MapPrint>>,
+    pub map: Option<Arc<MapImage>>,
 }
 
 /// The numbers behind a map.
 #[derive(Clone, Debug)]
-pub struct MapPrint {
+pub struct MapImage {
     /// Which map.
     pub map: &'static Map,
     /// What views are held against in it, in words; empty if it needs nothing.
@@ -105,54 +105,54 @@ pub struct MapPrint {
 }
 
 #[derive(Default)]
-struct Desk {
-    rung: bool,
+struct Inbox {
+    woken: bool,
     closed: bool,
     order: Order,
     interval: Duration,
-    done: BTreeMap<Sight, Option<Print>>,
+    done: BTreeMap<PictureId, Option<ViewImage>>,
 }
 
 /// Tells the window that there is something new; cheap to clone and to ring.
 #[derive(Clone, Default)]
-pub struct Bell {
-    desk: Arc<(Mutex<Desk>, Condvar)>,
+pub struct Waker {
+    inbox: Arc<(Mutex<Inbox>, Condvar)>,
 }
 
-impl Bell {
+impl Waker {
     /// Rings.
-    pub fn ring(&self) {
-        self.change(|desk| desk.rung = true);
+    pub fn wake(&self) {
+        self.change(|inbox| inbox.woken = true);
     }
 
-    fn change(&self, change: impl FnOnce(&mut Desk)) {
+    fn change(&self, change: impl FnOnce(&mut Inbox)) {
         change(&mut self.lock());
-        self.desk.1.notify_one();
+        self.inbox.1.notify_one();
     }
 
     /// Every change leaves the desk consistent, so a poisoned lock is still good.
-    fn lock(&self) -> MutexGuard<'_, Desk> {
-        self.desk.0.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Inbox> {
+        self.inbox.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Waits for an order and at least until `rested`; `None` means close.
     fn wait(&self, rested: Instant) -> Option<Order> {
-        let mut desk = self.lock();
+        let mut inbox = self.lock();
         loop {
-            if desk.closed {
+            if inbox.closed {
                 return None;
             }
             let left = rested.saturating_duration_since(Instant::now());
-            desk = match (desk.rung, left.is_zero()) {
+            inbox = match (inbox.woken, left.is_zero()) {
                 (true, true) => break,
                 (true, false) => {
-                    self.desk.1.wait_timeout(desk, left).unwrap_or_else(PoisonError::into_inner).0
+                    self.inbox.1.wait_timeout(inbox, left).unwrap_or_else(PoisonError::into_inner).0
                 }
-                (false, _) => self.desk.1.wait(desk).unwrap_or_else(PoisonError::into_inner),
+                (false, _) => self.inbox.1.wait(inbox).unwrap_or_else(PoisonError::into_inner),
             };
         }
-        desk.rung = false;
-        Some(desk.order.clone())
+        inbox.woken = false;
+        Some(inbox.order.clone())
     }
 }
 
@@ -160,49 +160,49 @@ impl Bell {
 pub type Poll = Box<dyn Fn(ViewId) -> Option<Arc<Snapshot>> + Send>;
 
 /// The thread that develops. Dropping it stops and joins it.
-pub struct Developer {
-    bell: Bell,
+pub struct ToneMapper {
+    waker: Waker,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Developer {
+impl ToneMapper {
     /// Starts the thread. `repaint` wakes the window.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
-    pub fn new(bell: Bell, poll: Poll, repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let theirs = bell.clone();
+    pub fn new(waker: Waker, poll: Poll, repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+        let theirs = waker.clone();
         let thread = std::thread::Builder::new()
             .name("majorant-developer".into())
             .spawn(move || run(&theirs, &poll, &repaint))?;
-        Ok(Self { bell, thread: Some(thread) })
+        Ok(Self { waker, thread: Some(thread) })
     }
 
     /// Develops this from now on, and what is new in it at once.
     pub fn order(&self, order: Order) {
-        if !self.bell.lock().order.is_like(&order) {
-            self.bell.change(|desk| {
-                desk.order = order;
-                desk.rung = true;
+        if !self.waker.lock().order.is_like(&order) {
+            self.waker.change(|inbox| {
+                inbox.order = order;
+                inbox.woken = true;
             });
         }
     }
 
     /// Shortest time between pictures that the window can afford.
     pub fn set_interval(&self, interval: Duration) {
-        self.bell.lock().interval = interval;
+        self.waker.lock().interval = interval;
     }
 
     /// The pictures that were not taken yet; none for what has nothing to show any more.
     #[must_use]
-    pub fn take(&self) -> BTreeMap<Sight, Option<Print>> {
-        std::mem::take(&mut self.bell.lock().done)
+    pub fn take(&self) -> BTreeMap<PictureId, Option<ViewImage>> {
+        std::mem::take(&mut self.waker.lock().done)
     }
 }
 
-impl Drop for Developer {
+impl Drop for ToneMapper {
     fn drop(&mut self) {
-        self.bell.change(|desk| desk.closed = true);
+        self.waker.change(|inbox| inbox.closed = true);
         if let Some(thread) = self.thread.take() {
             // A developer that panicked leaves the last picture; there is nothing to add here.
             let _ = thread.join();
@@ -210,16 +210,16 @@ impl Drop for Developer {
     }
 }
 
-fn run(bell: &Bell, poll: &Poll, repaint: &dyn Fn()) {
+fn run(waker: &Waker, poll: &Poll, repaint: &dyn Fn()) {
     let mut rested = Instant::now();
     let mut darkroom = Darkroom::default();
-    while let Some(order) = bell.wait(rested) {
+    while let Some(order) = waker.wait(rested) {
         let started = Instant::now();
         let done = darkroom.develop(&order, poll);
         let interval = {
-            let mut desk = bell.lock();
-            desk.done.extend(done);
-            desk.interval
+            let mut inbox = waker.lock();
+            inbox.done.extend(done);
+            inbox.interval
         };
         rested = started + (started.elapsed() * SHARE).max(interval).max(SHORTEST);
         repaint();
@@ -229,7 +229,7 @@ fn run(bell: &Bell, poll: &Poll, repaint: &dyn Fn()) {
 /// What was developed last, so that nothing is developed twice.
 #[derive(Default)]
 struct Darkroom {
-    pictures: BTreeMap<Sight, (Negative, ViewDoc)>,
+    pictures: BTreeMap<PictureId, (Negative, ViewDoc)>,
     maps: Option<(Vec<Negative>, Order)>,
 }
 
@@ -251,7 +251,7 @@ impl PartialEq for Negative {
 }
 
 impl Darkroom {
-    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<Sight, Option<Print>> {
+    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<PictureId, Option<ViewImage>> {
         let views = order.views.iter().filter_map(|view| {
             let snapshot = poll(view.id)?;
             let label = label(view.number);
@@ -264,17 +264,18 @@ impl Darkroom {
             reference: order.reference.clone(),
         };
         let pictures = self.pictures(order, &experiment).into_iter();
-        let mut done: BTreeMap<Sight, Option<Print>> = pictures.map(|(sight, p)| (sight, Some(p))).collect();
+        let mut done: BTreeMap<PictureId, Option<ViewImage>> =
+            pictures.map(|(picture, p)| (picture, Some(p))).collect();
         done.extend(self.maps(order, &experiment));
         done
     }
 
-    fn pictures(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Print> {
+    fn pictures(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<PictureId, ViewImage> {
         let mut done = BTreeMap::new();
-        self.pictures.retain(|sight, _| order.pictures.iter().any(|(s, _)| s == sight));
-        for (sight, display) in &order.pictures {
-            let (key, size, pixels, snapshot) = match sight {
-                Sight::View(number) => {
+        self.pictures.retain(|picture, _| order.pictures.iter().any(|(s, _)| s == picture));
+        for (picture, display) in &order.pictures {
+            let (key, size, pixels, snapshot) = match picture {
+                PictureId::View(number) => {
                     let Some((_, view)) = experiment.views.iter().find(|(n, _)| n == number) else {
                         continue;
                     };
@@ -286,29 +287,29 @@ impl Darkroom {
                         Some(Arc::clone(s)),
                     )
                 }
-                Sight::Reference => {
+                PictureId::Reference => {
                     let Some(r) = &experiment.reference else { continue };
                     (Negative::Reference(Arc::clone(r)), [r.width, r.height], r.mean(), None)
                 }
-                Sight::Difference => continue,
+                PictureId::Difference => continue,
             };
-            if self.pictures.get(sight).is_some_and(|(k, d)| *k == key && d == display) {
+            if self.pictures.get(picture).is_some_and(|(k, d)| *k == key && d == display) {
                 continue;
             }
-            self.pictures.insert(*sight, (key, display.clone()));
-            let id = match sight {
-                Sight::View(number) => order.id(*number),
-                Sight::Reference | Sight::Difference => None,
+            self.pictures.insert(*picture, (key, display.clone()));
+            let id = match picture {
+                PictureId::View(number) => order.id(*number),
+                PictureId::Reference | PictureId::Difference => None,
             };
-            let reference = experiment.reference.clone().filter(|_| *sight == Sight::Reference);
+            let reference = experiment.reference.clone().filter(|_| *picture == PictureId::Reference);
             let image = develop(size, pixels, display);
-            done.insert(*sight, Print { image, snapshot, id, reference, map: None });
+            done.insert(*picture, ViewImage { image, snapshot, id, reference, map: None });
         }
         done
     }
 
-    fn maps(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<Sight, Option<Print>> {
-        let Some((map, sights)) = &order.maps else {
+    fn maps(&mut self, order: &Order, experiment: &Experiment) -> BTreeMap<PictureId, Option<ViewImage>> {
+        let Some((map, pictures_shown)) = &order.maps else {
             self.maps = None;
             return BTreeMap::new();
         };
@@ -319,26 +320,28 @@ impl Darkroom {
             return BTreeMap::new();
         }
         self.maps = Some((key, order.clone()));
-        let values: Vec<_> = sights.iter().filter_map(|s| Some((*s, values(map, *s, experiment)?))).collect();
+        let values: Vec<_> =
+            pictures_shown.iter().filter_map(|s| Some((*s, values(map, *s, experiment)?))).collect();
         let range = Range::of(map.scale, values.iter().map(|(_, (_, v))| v.as_slice()));
         let against = if map.needs_reference { against(experiment) } else { String::new() };
-        let print = |(sight, (snapshot, values)): (Sight, (Arc<Snapshot>, Vec<f32>))| {
+        let print = |(picture, (snapshot, values)): (PictureId, (Arc<Snapshot>, Vec<f32>))| {
             let pixels = values.iter().map(|v| {
                 let [r, g, b] = range.paint(*v);
                 Color32::from_rgb(r, g, b)
             });
             let image = ColorImage::new([snapshot.width, snapshot.height], pixels.collect());
-            let (id, against) = match sight {
-                Sight::View(number) => (order.id(number), against.clone()),
+            let (id, against) = match picture {
+                PictureId::View(number) => (order.id(number), against.clone()),
                 // A difference names its two views itself.
-                Sight::Reference | Sight::Difference => (None, String::new()),
+                PictureId::Reference | PictureId::Difference => (None, String::new()),
             };
-            let map = Some(Arc::new(MapPrint { map, against, values, range }));
-            (sight, Print { image, snapshot: Some(snapshot), id, reference: None, map })
+            let map = Some(Arc::new(MapImage { map, against, values, range }));
+            (picture, ViewImage { image, snapshot: Some(snapshot), id, reference: None, map })
         };
         // What has no values any more must not go on showing old ones.
-        let mut prints: BTreeMap<Sight, Option<Print>> = sights.iter().map(|sight| (*sight, None)).collect();
-        prints.extend(values.into_iter().map(print).map(|(sight, print)| (sight, Some(print))));
+        let mut prints: BTreeMap<PictureId, Option<ViewImage>> =
+            pictures_shown.iter().map(|picture| (*picture, None)).collect();
+        prints.extend(values.into_iter().map(print).map(|(picture, print)| (picture, Some(print))));
         prints
     }
 }
@@ -349,10 +352,10 @@ fn against(experiment: &Experiment) -> String {
 }
 
 /// A map's values for a view or a difference, with the picture that they belong to.
-fn values(map: &Map, sight: Sight, experiment: &Experiment) -> Option<(Arc<Snapshot>, Vec<f32>)> {
+fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc<Snapshot>, Vec<f32>)> {
     let find = |number: usize| experiment.views.iter().find(|(n, _)| *n == number).map(|(_, v)| &v.snapshot);
-    let (snapshot, values) = match sight {
-        Sight::View(number) => {
+    let (snapshot, values) = match picture {
+        PictureId::View(number) => {
             let snapshot = find(number)?;
             let held = match (map.needs_reference, map.is_test()) {
                 (false, _) => None,
@@ -364,12 +367,12 @@ fn values(map: &Map, sight: Sight, experiment: &Experiment) -> Option<(Arc<Snaps
                 map.values(&Estimate::of(snapshot)?, held.as_deref().map(Reference::estimate).as_ref()),
             )
         }
-        Sight::Difference => {
+        PictureId::Difference => {
             let Pair(a, b) = experiment.doc.compare.pair;
             let snapshot = find(a)?;
             (snapshot, map.values(&Estimate::of(snapshot)?, Some(&Estimate::of(find(b)?)?)))
         }
-        Sight::Reference => return None,
+        PictureId::Reference => return None,
     };
     (values.len() == snapshot.mean.len()).then(|| (Arc::clone(snapshot), values))
 }

@@ -8,7 +8,7 @@ use majorant_core::compare::{
 use majorant_core::measure::{self, Measure, Region};
 use majorant_core::scene::Pair;
 use majorant_core::session::{PixelSample, Probe};
-use majorant_core::transport::Wanted;
+use majorant_core::transport::CancelToken;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -90,37 +90,37 @@ impl Analysis {
 }
 
 #[derive(Default)]
-struct Desk {
+struct Inbox {
     question: Option<Question>,
     closed: bool,
     done: Option<Arc<Analysis>>,
 }
 
 /// The thread that analyses. Dropping it stops and joins it.
-pub struct Analyst {
-    desk: Arc<(Mutex<Desk>, Condvar)>,
+pub struct AnalysisWorker {
+    desk: Arc<(Mutex<Inbox>, Condvar)>,
     /// 0 while its paths are wanted: a single one may take for ever.
     closed: Arc<AtomicU64>,
     thread: Option<JoinHandle<()>>,
 }
 
-fn lock(desk: &(Mutex<Desk>, Condvar)) -> MutexGuard<'_, Desk> {
+fn lock(desk: &(Mutex<Inbox>, Condvar)) -> MutexGuard<'_, Inbox> {
     // Every change leaves the desk consistent, so a poisoned lock is still good.
     desk.0.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Analyst {
+impl AnalysisWorker {
     /// Starts the thread; `repaint` wakes the window.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
     pub fn new(repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let desk = Arc::new((Mutex::new(Desk::default()), Condvar::new()));
+        let desk = Arc::new((Mutex::new(Inbox::default()), Condvar::new()));
         let closed = Arc::new(AtomicU64::new(0));
         let (theirs, flag) = (Arc::clone(&desk), Arc::clone(&closed));
         let thread = std::thread::Builder::new()
             .name("majorant-analyst".into())
-            .spawn(move || run(&theirs, Wanted::new(&flag, 0), &repaint))?;
+            .spawn(move || run(&theirs, CancelToken::new(&flag, 0), &repaint))?;
         Ok(Self { desk, closed, thread: Some(thread) })
     }
 
@@ -137,7 +137,7 @@ impl Analyst {
     }
 }
 
-impl Drop for Analyst {
+impl Drop for AnalysisWorker {
     fn drop(&mut self) {
         self.closed.store(1, Ordering::Release);
         lock(&self.desk).closed = true;
@@ -149,7 +149,7 @@ impl Drop for Analyst {
     }
 }
 
-fn run(desk: &(Mutex<Desk>, Condvar), wanted: Wanted<'_>, repaint: &dyn Fn()) {
+fn run(desk: &(Mutex<Inbox>, Condvar), cancel: CancelToken<'_>, repaint: &dyn Fn()) {
     let mut memory = Memory::default();
     let mut rested = Instant::now();
     loop {
@@ -170,7 +170,7 @@ fn run(desk: &(Mutex<Desk>, Condvar), wanted: Wanted<'_>, repaint: &dyn Fn()) {
         };
         drop(at);
         let started = Instant::now();
-        let mut analysis = memory.analyse(&question, wanted);
+        let mut analysis = memory.analyse(&question, cancel);
         analysis.seconds = started.elapsed().as_secs_f64();
         lock(desk).done = Some(Arc::new(analysis));
         rested = started + (started.elapsed() * SHARE).max(SHORTEST);
@@ -215,7 +215,7 @@ impl CurveKey {
 }
 
 impl Memory {
-    fn analyse(&mut self, question: &Question, wanted: Wanted<'_>) -> Analysis {
+    fn analyse(&mut self, question: &Question, cancel: CancelToken<'_>) -> Analysis {
         let experiment = &question.experiment;
         let compare = &experiment.doc.compare;
         let chosen = measure::find(&compare.measure.0);
@@ -232,7 +232,7 @@ impl Memory {
             standings,
             measure: chosen,
             pair: pair(experiment, compare.pair),
-            pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, wanted))),
+            pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, cancel))),
             seconds: 0.0,
         }
     }
@@ -270,7 +270,7 @@ impl Memory {
         &mut self,
         picked: &PickedPixel,
         experiment: &Experiment,
-        wanted: Wanted<'_>,
+        cancel: CancelToken<'_>,
     ) -> Vec<PixelSamples> {
         if self.pixel != Some(picked.at) {
             (self.pixel, self.traced) = (Some(picked.at), BTreeMap::new());
@@ -286,7 +286,7 @@ impl Memory {
             let first = traced.samples.len() as u64;
             let last = view.snapshot.spp.min(first + TRACED).min(KEPT);
             if first < last {
-                let more = probe.samples(at, first..last, wanted);
+                let more = probe.samples(at, first..last, cancel);
                 Arc::make_mut(&mut traced.samples).extend(more);
             }
             all.push(PixelSamples { view: *number, samples: Arc::clone(&traced.samples) });

@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Whether a piece of work is still wanted: it is while a shared counter still shows its generation.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted<'a>(Option<(&'a AtomicU64, u64)>);
+pub struct CancelToken<'a>(Option<(&'a AtomicU64, u64)>);
 
-impl<'a> Wanted<'a> {
+impl<'a> CancelToken<'a> {
     /// Work that nobody cancels.
-    pub const ALWAYS: Wanted<'static> = Wanted(None);
+    pub const NEVER: CancelToken<'static> = CancelToken(None);
 
     /// Work of one generation.
     #[must_use]
@@ -21,7 +21,7 @@ impl<'a> Wanted<'a> {
 
     /// Whether it is still wanted.
     #[must_use]
-    pub fn yes(&self) -> bool {
+    pub fn is_active(&self) -> bool {
         self.0.is_none_or(|(current, generation)| current.load(Ordering::Relaxed) == generation)
     }
 }
