@@ -63,8 +63,8 @@ fn assert_current(app: &LabApp) {
     let wall = app.wall();
     for standing in &wall.analysis().standings {
         let view = (0..wall.slots().len()).find(|v| label(*v) == standing.label).expect("a view");
-        let cancel = app.doc().view_doc(view).expect("its document");
-        assert_eq!(standing.estimator, cancel.estimator.id, "view {}", standing.label);
+        let expected = app.doc().view_doc(view).expect("its document");
+        assert_eq!(standing.estimator, expected.estimator.id, "view {}", standing.label);
         let picture = wall.slots()[view].picture().expect("a picture of what was submitted last");
         assert!(standing.spp <= picture.spp, "{} samples of {}", standing.spp, picture.spp);
         let uploaded = wall.uploaded(PictureId::View(view)).and_then(|h| h.snapshot.as_ref());

@@ -70,10 +70,10 @@ impl Watched {
     }
 
     /// Waits until a view is in a state that is wanted.
-    pub fn wait(&self, view: ViewId, cancel: impl Fn(&ViewState) -> bool) -> ViewState {
+    pub fn wait(&self, view: ViewId, wanted: impl Fn(&ViewState) -> bool) -> ViewState {
         loop {
             let state = self.session.state(view);
-            if cancel(&state) {
+            if wanted(&state) {
                 return state;
             }
             if let Status::Failed(message) = &state.status {
@@ -86,9 +86,9 @@ impl Watched {
     }
 
     /// Waits until the newest submission of a view has a picture that is wanted.
-    pub fn wait_picture(&self, view: ViewId, cancel: impl Fn(&Status, &Snapshot) -> bool) -> Arc<Snapshot> {
+    pub fn wait_picture(&self, view: ViewId, wanted: impl Fn(&Status, &Snapshot) -> bool) -> Arc<Snapshot> {
         let current = |state: &ViewState| {
-            state.snapshot.clone().filter(|s| s.generation == state.generation && cancel(&state.status, s))
+            state.snapshot.clone().filter(|s| s.generation == state.generation && wanted(&state.status, s))
         };
         current(&self.wait(view, |state| current(state).is_some())).unwrap()
     }

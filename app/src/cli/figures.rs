@@ -87,8 +87,8 @@ fn parse_volume(text: &str) -> Result<OwnVolume, String> {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let cancel = |figure: &&Figure| arguments.figures.iter().any(|name| name == figure.id || name == "all");
-    let chosen: Vec<&'static Figure> = FIGURES.iter().filter(cancel).collect();
+    let wanted = |figure: &&Figure| arguments.figures.iter().any(|name| name == figure.id || name == "all");
+    let chosen: Vec<&'static Figure> = FIGURES.iter().filter(wanted).collect();
     let command = std::env::args().skip(1).map(|word| words::quoted(&word)).collect::<Vec<_>>();
     let options = Options {
         spp: arguments.spp,

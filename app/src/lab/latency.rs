@@ -43,8 +43,8 @@ impl Latency {
 
     /// A frame shows a picture of this generation.
     pub fn shown(&mut self, generation: u64) {
-        if let Some((cancel, since)) = self.waiting
-            && generation >= cancel
+        if let Some((wanted, since)) = self.waiting
+            && generation >= wanted
         {
             keep(&mut self.visible, EDITS, since.elapsed().as_secs_f64());
             self.waiting = None;

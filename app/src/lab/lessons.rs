@@ -87,8 +87,8 @@ impl LabApp {
             self.document = Document::new(scene);
         }
         self.wall.select(0);
-        if let Some(cancel) = &stop.tab {
-            let tab = TABS.iter().find(|known| known.id() == cancel);
+        if let Some(wanted) = &stop.tab {
+            let tab = TABS.iter().find(|known| known.id() == wanted);
             if let Some(tab) = tab {
                 tab.id().clone_into(&mut self.settings.tab);
             }

@@ -190,7 +190,7 @@ impl LabApp {
             }
             Command::ToggleDock => *self.dock_shown() ^= true,
             Command::TryBeside(doc) => {
-                self.apply(Command::Wall(WallEdit::SideStream(doc)));
+                self.apply(Command::Wall(WallEdit::AddView(doc)));
                 self.apply(Command::ShowTab("ranking"));
             }
             Command::HoldAgainstRight => {
@@ -297,10 +297,10 @@ impl LabApp {
 
     /// Larger type is the interface's own zoom, which Ctrl + plus and minus change further.
     pub(super) fn apply_type_size(&mut self, ctx: &Context) {
-        let cancel = self.settings.zoom_factor();
-        if self.applied_zoom_factor != cancel {
-            self.applied_zoom_factor = cancel;
-            ctx.set_zoom_factor(cancel);
+        let wanted = self.settings.zoom_factor();
+        if self.applied_zoom_factor != wanted {
+            self.applied_zoom_factor = wanted;
+            ctx.set_zoom_factor(wanted);
         }
     }
 
@@ -326,11 +326,11 @@ impl LabApp {
     /// Gives the session what changed, found by comparing documents.
     pub(super) fn submit_if_needed(&mut self) {
         let (doc, base) = (self.document.doc(), self.document.base());
-        let cancel = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
+        let wanted = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
         if let Some(slot) = self.wall.selected_slot() {
             self.latency.edited(self.session.state(slot.id).generation);
         }
-        if let Some(path) = cancel {
+        if let Some(path) = wanted {
             let library = majorant_core::io::Library::default().with_base(base);
             let read = self.tasks.read_reference(path, doc.clone(), library);
             if let Err(problem) = read {

@@ -184,9 +184,9 @@ impl LabApp {
         Ok(app)
     }
 
-    fn open_first(&mut self, cancel: Option<&Source>) {
+    fn open_first(&mut self, wanted: Option<&Source>) {
         let first = Source::first();
-        match cancel {
+        match wanted {
             // A volume or a picture is put into the first scene.
             Some(Source::File(path)) if path.extension().is_none_or(|e| e != "toml") => {
                 self.open(&first);

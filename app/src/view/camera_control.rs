@@ -14,9 +14,9 @@ pub fn orbit(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     let turned = Quat::from_axis_angle(up, -dx * std::f32::consts::PI) * offset;
     let polar = turned.angle_between(up);
     let limit = POLE_DEG.to_radians();
-    let cancel = (polar - dy * std::f32::consts::PI).clamp(limit, std::f32::consts::PI - limit);
+    let wanted = (polar - dy * std::f32::consts::PI).clamp(limit, std::f32::consts::PI - limit);
     let right = up.cross(turned).normalize_or(up.any_orthonormal_vector());
-    let lifted = Quat::from_axis_angle(right, cancel - polar) * turned;
+    let lifted = Quat::from_axis_angle(right, wanted - polar) * turned;
     CameraDoc { origin: (Vec3::from(camera.target) + lifted).into(), ..camera.clone() }
 }
 

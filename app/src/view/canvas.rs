@@ -142,11 +142,11 @@ fn region_gesture(
     view: ImageView,
     canvas: Rect,
     image: Vec2,
-    cancel: bool,
+    wanted: bool,
 ) -> Option<Option<[u32; 4]>> {
     let id = response.id.with("region");
     if response.drag_started_by(PointerButton::Primary) {
-        let from = ui.input(|i| i.pointer.press_origin()).filter(|_| cancel);
+        let from = ui.input(|i| i.pointer.press_origin()).filter(|_| wanted);
         ui.data_mut(|data| match from {
             Some(from) => {
                 data.insert_temp(id, from);
@@ -157,7 +157,7 @@ fn region_gesture(
     let dragging =
         response.dragged_by(PointerButton::Primary) || response.drag_stopped_by(PointerButton::Primary);
     let from = ui.data(|data| data.get_temp::<egui::Pos2>(id)).filter(|_| dragging)?;
-    if cancel {
+    if wanted {
         ui.set_cursor_icon(CursorIcon::Crosshair);
     }
     let to = ui.input(|i| i.pointer.latest_pos())?;

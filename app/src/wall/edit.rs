@@ -13,7 +13,7 @@ pub enum WallEdit {
     /// One more view like this one.
     Duplicate(usize),
     /// One more view, with the method of this document.
-    SideStream(Box<SceneDoc>),
+    AddView(Box<SceneDoc>),
     /// Two more views of what this one should show: the same without its mistakes, and another technique.
     AgainstRight(usize),
     /// This view goes; the last one stays.
@@ -50,15 +50,15 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
     let mut doc = doc.clone();
     let count = doc.view_count();
     match edit {
-        WallEdit::Count(cancel) => {
-            let cancel = (*cancel).clamp(1, MAX_VIEWS);
-            while doc.view_count() < cancel {
+        WallEdit::Count(wanted) => {
+            let wanted = (*wanted).clamp(1, MAX_VIEWS);
+            while doc.view_count() < wanted {
                 let next = next_contender(&doc);
                 doc.compare.views.push(next);
             }
-            doc.compare.views.truncate(cancel - 1);
+            doc.compare.views.truncate(wanted - 1);
         }
-        WallEdit::SideStream(method) if count < MAX_VIEWS => {
+        WallEdit::AddView(method) if count < MAX_VIEWS => {
             if let Some(next) = method.contender(0) {
                 let seed = doc.free_seed();
                 doc.compare.views.push(ContenderDoc { seed, ..next });
@@ -86,7 +86,7 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
         }
         WallEdit::Remove(view) if count > 1 && *view < count => remove(&mut doc, *view),
         WallEdit::Swap(a, b) if a != b && *a < count && *b < count => swap(&mut doc, *a, *b),
-        WallEdit::Duplicate(_) | WallEdit::SideStream(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
+        WallEdit::Duplicate(_) | WallEdit::AddView(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
         WallEdit::Arrange(arrangement) => doc.compare.arrangement = *arrangement,
         WallEdit::Pair(pair) => doc.compare.pair = *pair,
         WallEdit::Layer(id) => doc.compare.layer = Layer(id.clone()),

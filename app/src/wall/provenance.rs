@@ -29,8 +29,8 @@ impl Provenance {
         of(self).is_some() && of(self) == of(other)
     }
 
-    fn agree_on_label(&self, other: &Self, cancel: &str) -> bool {
-        (0..self.views.len()).any(|view| label(view) == cancel && self.agree_on(other, view))
+    fn agree_on_label(&self, other: &Self, wanted: &str) -> bool {
+        (0..self.views.len()).any(|view| label(view) == wanted && self.agree_on(other, view))
     }
 }
 

@@ -70,9 +70,9 @@ impl ReferenceRenders {
         (session, paused): (&Session, bool),
     ) -> Option<PathBuf> {
         match reference_doc(doc) {
-            Some(cancel) => {
+            Some(wanted) => {
                 let slot = self.rendered.get_or_insert_with(|| Slot::paused(BACKGROUND, session, paused));
-                slot.submit(&cancel, resolved, Role::Background, session);
+                slot.submit(&wanted, resolved, Role::Background, session);
             }
             None => {
                 if self.rendered.take().is_some() {

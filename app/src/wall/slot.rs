@@ -50,32 +50,32 @@ impl Slot {
     }
 
     /// What has to be done so that it shows `cancel`.
-    fn work(&self, cancel: &SceneDoc) -> Work {
-        self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, cancel))
+    fn work(&self, wanted: &SceneDoc) -> Work {
+        self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, wanted))
     }
 
     /// Gives the session what changed.
     pub fn submit(
         &mut self,
-        cancel: &SceneDoc,
+        wanted: &SceneDoc,
         resolved: impl Fn(&SceneDoc) -> SceneDoc,
         role: Role,
         session: &Session,
     ) {
-        match self.work(cancel) {
+        match self.work(wanted) {
             // The picture stands; how it is shown and what it is called may not.
-            Work::None => self.rendered = Arc::new(resolved(cancel)),
+            Work::None => self.rendered = Arc::new(resolved(wanted)),
             Work::Limits => {
-                self.rendered = Arc::new(resolved(cancel));
-                session.set_limits(self.id, cancel.render.limits());
+                self.rendered = Arc::new(resolved(wanted));
+                session.set_limits(self.id, wanted.render.limits());
             }
             Work::Render => {
-                self.rendered = Arc::new(resolved(cancel));
+                self.rendered = Arc::new(resolved(wanted));
                 let preview = role == Role::Contender;
                 session.submit(self.id, Job { doc: Arc::clone(&self.rendered), preview, role });
             }
         }
-        self.submitted = Some(cancel.clone());
+        self.submitted = Some(wanted.clone());
         // What is known of the submission before must not be read as this one's.
         self.update(session);
     }
@@ -141,20 +141,20 @@ fn same_files(a: &SceneDoc, b: &SceneDoc) -> bool {
 /// really changed starts over. `fresh` makes a slot that renders nothing yet; what is left over is returned.
 pub fn assign(
     old: Vec<Slot>,
-    cancel: &[SceneDoc],
+    wanted: &[SceneDoc],
     mut fresh: impl FnMut() -> Slot,
 ) -> (Vec<Slot>, Vec<Slot>) {
     let mut old: Vec<Option<Slot>> = old.into_iter().map(Some).collect();
-    let mut found: Vec<Option<Slot>> = cancel.iter().map(|_| None).collect();
+    let mut found: Vec<Option<Slot>> = wanted.iter().map(|_| None).collect();
     let fits =
         |slot: &Option<Slot>, doc: &SceneDoc| slot.as_ref().is_some_and(|s| s.work(doc) != Work::Render);
     // Those at their place first, then those that moved, then whatever is free.
-    for (i, doc) in cancel.iter().enumerate() {
+    for (i, doc) in wanted.iter().enumerate() {
         if let Some(slot) = old.get_mut(i).filter(|slot| fits(slot, doc)) {
             found[i] = slot.take();
         }
     }
-    for (i, doc) in cancel.iter().enumerate().filter(|(i, _)| found[*i].is_none()).collect::<Vec<_>>() {
+    for (i, doc) in wanted.iter().enumerate().filter(|(i, _)| found[*i].is_none()).collect::<Vec<_>>() {
         if let Some(slot) = old.iter_mut().find(|slot| fits(slot, doc)) {
             found[i] = slot.take();
         }
@@ -186,12 +186,12 @@ mod tests {
         let session = Session::new(Library::default(), || {}).expect("threads");
         let mut next = 0;
         let mut assigned = |old: Vec<Slot>, seeds: &[u64]| {
-            let cancel: Vec<SceneDoc> = seeds.iter().map(|s| doc(*s)).collect();
-            let (mut slots, left) = assign(old, &cancel, || {
+            let wanted: Vec<SceneDoc> = seeds.iter().map(|s| doc(*s)).collect();
+            let (mut slots, left) = assign(old, &wanted, || {
                 next += 1;
                 Slot::new(ViewId(next), &session)
             });
-            for (slot, doc) in slots.iter_mut().zip(&cancel) {
+            for (slot, doc) in slots.iter_mut().zip(&wanted) {
                 slot.submit(doc, SceneDoc::clone, Role::Contender, &session);
             }
             (slots, left)

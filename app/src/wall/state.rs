@@ -122,9 +122,9 @@ impl Wall {
             return None;
         }
         (self.doc, self.forgotten) = (Arc::new(doc.clone()), false);
-        let cancel = doc.view_docs();
+        let wanted = doc.view_docs();
         let (next_id, paused) = (&mut self.next_id, self.paused);
-        let (slots, left) = assign(std::mem::take(&mut self.slots), &cancel, || {
+        let (slots, left) = assign(std::mem::take(&mut self.slots), &wanted, || {
             *next_id += 1;
             Slot::paused(ViewId(*next_id), session, paused)
         });
@@ -134,8 +134,8 @@ impl Wall {
             session.remove(gone.id);
         }
         session.set_fairness(doc.compare.fairness);
-        for (slot, cancel) in self.slots.iter_mut().zip(&cancel) {
-            slot.submit(cancel, &resolved, Role::Contender, session);
+        for (slot, wanted) in self.slots.iter_mut().zip(&wanted) {
+            slot.submit(wanted, &resolved, Role::Contender, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
         let file = self.reference.submit(doc, base, resolved, (session, self.paused));

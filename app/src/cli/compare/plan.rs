@@ -66,8 +66,8 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
     if let Some(problem) = estimator::validate(&doc).first() {
         return Err(Failure::Message(problem.to_string()));
     }
-    if let Some(cancel) = &arguments.baseline {
-        doc.compare.baseline = baseline(&doc, cancel)?;
+    if let Some(wanted) = &arguments.baseline {
+        doc.compare.baseline = baseline(&doc, wanted)?;
     }
     Ok(doc)
 }
@@ -101,13 +101,13 @@ fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>
 }
 
 /// The view of that label, or the first with that estimator.
-fn baseline(doc: &SceneDoc, cancel: &str) -> Result<usize, Failure> {
+fn baseline(doc: &SceneDoc, wanted: &str) -> Result<usize, Failure> {
     let ids: Vec<String> =
         (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
-    let by_label = (0..ids.len()).find(|view| label(*view) == cancel);
-    by_label.or_else(|| ids.iter().position(|id| id == cancel)).ok_or_else(|| {
+    let by_label = (0..ids.len()).find(|view| label(*view) == wanted);
+    by_label.or_else(|| ids.iter().position(|id| id == wanted)).ok_or_else(|| {
         Failure::Message(format!(
-            "--baseline {cancel}: it is not compared; choose {} or a view from A to {}",
+            "--baseline {wanted}: it is not compared; choose {} or a view from A to {}",
             ids.join(", "),
             label(ids.len() - 1)
         ))

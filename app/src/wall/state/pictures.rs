@@ -67,14 +67,14 @@ impl Wall {
     /// A picture on the wall; none if what hangs is a map that is not wanted now.
     #[must_use]
     pub fn uploaded(&self, picture: PictureId) -> Option<&UploadedImage> {
-        let cancel = self.map().map(|map| map.id);
+        let wanted = self.map().map(|map| map.id);
         self.uploaded.get(&picture).filter(|uploaded| {
             // What was the reference is none any more once there is another, or none yet.
             if picture == PictureId::Reference && !self.reference.is_source_of(uploaded.reference.as_ref()) {
                 return false;
             }
             let map = uploaded.map.as_ref().map(|print| print.map.id);
-            map.is_none() || map == cancel || cancel.is_none()
+            map.is_none() || map == wanted || wanted.is_none()
         })
     }
 

@@ -110,10 +110,10 @@ pub fn plot_top(largest: f32) -> f32 {
     if !(largest > 0.0 && largest.is_finite()) {
         return 1.0;
     }
-    let cancel = largest * 1.12;
-    let decade = 10_f32.powf(cancel.log10().floor());
+    let wanted = largest * 1.12;
+    let decade = 10_f32.powf(wanted.log10().floor());
     let step = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-    step.into_iter().map(|s| s * decade).find(|top| *top >= cancel).unwrap_or(10.0 * decade)
+    step.into_iter().map(|s| s * decade).find(|top| *top >= wanted).unwrap_or(10.0 * decade)
 }
 
 #[cfg(test)]

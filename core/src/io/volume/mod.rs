@@ -127,10 +127,10 @@ fn format_of(bytes: &[u8], label: &str, grid: Option<&str>) -> Result<Format, Vo
         let cure = "Use an OpenVDB (.vdb), NumPy (.npy), Mitsuba (.vol) or raw float32 (.raw) file";
         return Err(Fault::unsupported(what, cure).in_file(label, None));
     };
-    if let (Some(cancel), Format::Npy | Format::MitsubaVol | Format::Raw) = (grid, format) {
+    if let (Some(wanted), Format::Npy | Format::MitsubaVol | Format::Raw) = (grid, format) {
         return Err(VolumeError::NoSuchGrid {
             file: label.to_owned(),
-            what: format!("it has no grid named \"{cancel}\": the format holds one unnamed grid"),
+            what: format!("it has no grid named \"{wanted}\": the format holds one unnamed grid"),
             available: Vec::new(),
         });
     }

@@ -45,8 +45,8 @@ fn problem(leaf: &Leaf) -> Option<Problem> {
 }
 
 /// What is wrong with a value; what is of another type was refused when it was read.
-fn wrong(value: &Value, cancel: Type) -> Option<String> {
-    match cancel {
+fn wrong(value: &Value, wanted: Type) -> Option<String> {
+    match wanted {
         Type::Number(range) => {
             let number = single(value)?;
             (!range.holds(number)).then(|| format!("is {number}, outside {}", words(range)))
