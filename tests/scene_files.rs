@@ -6,11 +6,11 @@ use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
 use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
-    Absorption, Angle, Arrangement, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc,
-    DensityDoc, DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc,
-    GridRef, Heuristic, Heuristics, Layer, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc,
-    MeasureId, MediumDoc, Mode, ObjectDoc, Pair, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc,
-    ToneCurve, Tracking, ViewDoc, WhenExceeded,
+    Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc, DensityDoc,
+    DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef,
+    Heuristic, Heuristics, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId,
+    MediumDoc, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve,
+    Tracking, ViewDoc, WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -118,13 +118,11 @@ fn everything() -> SceneDoc {
                 relative_error: Some(0.01),
             },
             baseline: 1,
-            arrangement: Arrangement::Wipe,
-            pair: Pair(1, 0),
-            layer: Layer("z".into()),
             measure: MeasureId("mse".into()),
             region: Some([1, 2, 30, 40]),
-            own_zoom: true,
+            ..CompareDoc::default()
         },
+        window: toml::from_str("own_zoom = true\nof_a_later_version = 3").unwrap(),
     }
 }
 

@@ -7,12 +7,12 @@
 )]
 
 use majorant_core::io::volume::{
-    Limits, SampleConvention, VolumeError, VoxelGrid, read_volume, read_volume_bytes,
+    ReadLimits, SampleConvention, VolumeError, VoxelGrid, read_volume, read_volume_bytes,
 };
 use majorant_tests::volumes;
 
 fn read(bytes: &[u8], label: &str) -> Result<VoxelGrid, VolumeError> {
-    read_volume_bytes(bytes, label, None, &Limits::default())
+    read_volume_bytes(bytes, label, None, &ReadLimits::default())
 }
 
 fn refusal(bytes: &[u8], label: &str) -> String {
@@ -142,7 +142,7 @@ fn formats_are_told_apart() {
     assert!(read(&array, "no extension").is_ok(), "by the magic number");
     assert!(refusal(&array, "wrong.vdb").contains("not an OpenVDB file"));
     assert!(refusal(b"P6", "picture.ppm").contains(".npy"));
-    let error = read_volume_bytes(&array, "a.npy", Some("density"), &Limits::default());
+    let error = read_volume_bytes(&array, "a.npy", Some("density"), &ReadLimits::default());
     assert!(matches!(error, Err(VolumeError::NoSuchGrid { .. })));
 }
 
@@ -157,7 +157,7 @@ fn real_mitsuba_volumes() {
         ("lajolla_smoke.vol", [128, 128, 50], 1, (0.0, 1.0), 0.01156106642304237, 0),
         ("lajolla_colored_density.vol", [80, 80, 40], 3, (-0.004004642, 1.5), 0.016962258856129998, 1484),
     ] {
-        let grid = read_volume(&folder.join(name), None, &Limits::default()).unwrap();
+        let grid = read_volume(&folder.join(name), None, &ReadLimits::default()).unwrap();
         assert_eq!((grid.size, grid.channels, grid.negative), (size, channels, negative), "{name}");
         assert_eq!(grid.min_max(), Some(min_max), "{name}");
         assert!((grid.mean() / mean - 1.0).abs() < 1e-12, "{name}: {}", grid.mean());

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use majorant_core::io::volume::{
-    Limits, info, info_bytes, read_sparse_volume_bytes, read_volume, read_volume_bytes,
+    ReadLimits, info, info_bytes, read_sparse_volume_bytes, read_volume, read_volume_bytes,
 };
 use majorant_tests::volumes::{self, mutate};
 
@@ -20,7 +20,7 @@ const BYTE_FLIPS: usize = 500;
 const MAX_TIME: Duration = Duration::from_secs(30);
 
 /// Small enough that a breach shows in the memory of the process.
-const LIMITS: Limits = Limits {
+const LIMITS: ReadLimits = ReadLimits {
     max_file_bytes: 1 << 22,
     max_tree_bytes: 1 << 26,
     max_dense_values: 1 << 24,

@@ -9,8 +9,8 @@
 use std::path::Path;
 
 use majorant_core::io::volume::{
-    GridChoice, GridRole, Limits, Volume, VolumeError, info, info_bytes, read_sparse_volume_bytes, read_vdb,
-    read_vdb_bytes, read_volume, validate_density,
+    GridChoice, GridRole, ReadLimits, Volume, VolumeError, info, info_bytes, read_sparse_volume_bytes,
+    read_vdb, read_vdb_bytes, read_volume, validate_density,
 };
 use majorant_tests::volumes::write::{TinyGrid, vdb};
 use majorant_tests::volumes::{self, truth};
@@ -39,7 +39,7 @@ fn hostile_chunks_are_refused_before_they_are_unpacked() {
     ];
     assert_eq!(files.len(), reasons.len());
     for (path, (name, reason)) in files.iter().zip(reasons) {
-        let error = read_vdb(path, None, &Limits::default()).unwrap_err().to_string();
+        let error = read_vdb(path, None, &ReadLimits::default()).unwrap_err().to_string();
         assert!(path.ends_with(name) && error.contains(reason), "{error}");
         assert!(error.contains("byte "), "{error}");
         assert!(info(path).map_or(true, |grids| grids.iter().all(|grid| grid.error.is_some())));
@@ -50,14 +50,14 @@ fn hostile_chunks_are_refused_before_they_are_unpacked() {
 fn missing_magic_number_is_an_error() {
     let mut bytes = std::fs::read(volumes::fixtures().join("gaffer_sphere.vdb")).unwrap();
     bytes[..8].fill(0);
-    let error = info_bytes(&bytes, "nomagic.vdb", &Limits::default()).unwrap_err().to_string();
+    let error = info_bytes(&bytes, "nomagic.vdb", &ReadLimits::default()).unwrap_err().to_string();
     assert!(error.contains("not an OpenVDB file"), "{error}");
 }
 
 #[test]
 fn nan_and_infinite_voxels_are_repaired_and_counted() {
     let path = volumes::fixtures().join("nan_inf.vdb");
-    let grid = read_volume(&path, Some("density"), &Limits::default()).unwrap();
+    let grid = read_volume(&path, Some("density"), &ReadLimits::default()).unwrap();
     assert_eq!((grid.size, grid.repaired, grid.negative), ([4, 1, 1], 2, 1));
     assert!(grid.values.iter().all(|value| value.is_finite()));
     assert_eq!(info(&path).unwrap()[0].non_finite, Some(2));
@@ -68,9 +68,9 @@ fn nan_and_infinite_voxels_are_repaired_and_counted() {
 #[test]
 fn level_set_is_read_but_is_no_density() {
     let path = volumes::fixtures().join("tiny_level_set.vdb");
-    let error = read_vdb(&path, None, &Limits::default()).unwrap_err().to_string();
+    let error = read_vdb(&path, None, &ReadLimits::default()).unwrap_err().to_string();
     assert!(error.contains("none of its grids is a density") && error.contains("\"surface\""), "{error}");
-    let grid = read_vdb(&path, Some("surface"), &Limits::default()).unwrap();
+    let grid = read_vdb(&path, Some("surface"), &ReadLimits::default()).unwrap();
     assert!(grid.level_set && grid.negative > 0);
     let error = validate_density(&grid, &path).unwrap_err();
     assert!(matches!(error, VolumeError::NegativeDensity { level_set: true, .. }));
@@ -80,7 +80,7 @@ fn level_set_is_read_but_is_no_density() {
 #[test]
 fn grids_are_chosen_by_name() {
     let path = volumes::fixtures().join("usd_densityAndHeat.vdb");
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     assert_eq!(read_vdb(&path, None, &limits).unwrap().name, "density");
     assert_eq!(read_vdb(&path, Some("heat"), &limits).unwrap().name, "heat");
     let error = read_vdb(&path, Some("smoke"), &limits).unwrap_err().to_string();
@@ -100,7 +100,7 @@ fn grids_are_chosen_by_name() {
 #[test]
 fn every_voxel_is_in_its_place() {
     // The value of the ball in `make_tiny.py` is a ramp over its array, x slowest.
-    let grid = read_vdb(&volumes::fixtures().join("tiny_affine.vdb"), None, &Limits::default());
+    let grid = read_vdb(&volumes::fixtures().join("tiny_affine.vdb"), None, &ReadLimits::default());
     let grid = grid.unwrap();
     assert_eq!((grid.size, grid.min_index), ([11; 3], [3, 4, 5]));
     for (i, &value) in grid.values.iter().enumerate() {
@@ -115,13 +115,13 @@ fn every_voxel_is_in_its_place() {
 fn limits_are_kept_and_named() {
     let path = volumes::fixtures().join("tiny_root_tile.vdb");
     let bytes = std::fs::read(&path).unwrap();
-    let read = |limits: Limits| read_vdb_bytes(&bytes, "bomb.vdb", None, &limits).unwrap_err();
-    let error = read(Limits::default());
+    let read = |limits: ReadLimits| read_vdb_bytes(&bytes, "bomb.vdb", None, &limits).unwrap_err();
+    let error = read(ReadLimits::default());
     assert!(matches!(error, VolumeError::TooLarge { .. }), "{error}");
     assert!(error.to_string().contains("8192 × 4116 × 4116"), "{error}");
-    let error = read(Limits { max_tree_bytes: 1000, ..Limits::default() });
+    let error = read(ReadLimits { max_tree_bytes: 1000, ..ReadLimits::default() });
     assert!(error.to_string().contains("unpacked tree"), "{error}");
-    let limits = Limits { max_file_bytes: 1000, ..Limits::default() };
+    let limits = ReadLimits { max_file_bytes: 1000, ..ReadLimits::default() };
     let error = read_vdb(&path, None, &limits).unwrap_err();
     assert!(error.to_string().contains("1000 bytes"), "{error}");
     let missing = read_volume(Path::new("missing.vdb"), None, &limits).unwrap_err().to_string();
@@ -149,7 +149,7 @@ fn a_refused_grid_leaves_the_others_readable() {
     let kind = b"Tree_float_5_4_3";
     let at = bytes.windows(kind.len()).position(|window| window == kind).unwrap();
     bytes[at..at + kind.len()].copy_from_slice(b"Tree_vec3i_5_4_3");
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     let grids = info_bytes(&bytes, "two.vdb", &limits).unwrap();
     let refused = grids[0].error.as_deref().unwrap();
     assert!(refused.contains("two.vdb, grid \"density\"") && refused.contains("vec3i"), "{refused}");
@@ -164,7 +164,7 @@ fn chosen(grids: &[(&str, &str)], role: GridRole) -> Result<(String, Vec<String>
     let grids: Vec<_> =
         grids.iter().map(|(name, class)| TinyGrid { name, class, ..TinyGrid::default() }).collect();
     let file = vdb(224, false, &grids);
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     let choice = GridChoice { name: None, role };
     let sparse = read_sparse_volume_bytes(&file, "a.vdb", choice, &limits, &|_| ());
     let sparse = sparse.map(|volume| match volume {
@@ -234,8 +234,8 @@ fn what_is_no_density_is_refused_with_the_list_and_the_key() {
     // A vector grid is no density, whatever its class; asked for by name, it is read.
     let vectors = TinyGrid { name: "smoke", values: "vec3s", ..TinyGrid::default() };
     let file = vdb(224, false, &[vectors]);
-    assert!(read_vdb_bytes(&file, "a.vdb", None, &Limits::default()).is_err());
-    assert_eq!(read_vdb_bytes(&file, "a.vdb", Some("smoke"), &Limits::default()).unwrap().channels, 3);
+    assert!(read_vdb_bytes(&file, "a.vdb", None, &ReadLimits::default()).is_err());
+    assert_eq!(read_vdb_bytes(&file, "a.vdb", Some("smoke"), &ReadLimits::default()).unwrap().channels, 3);
 }
 
 #[test]
@@ -264,7 +264,7 @@ fn with_version(bytes: &[u8], version: u32) -> Vec<u8> {
 
 #[test]
 fn newer_file_versions_are_read_as_the_newest_known() {
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     let mut compared = 0;
     for path in volumes::files(&volumes::fixtures()) {
         let bytes = std::fs::read(&path).unwrap();
@@ -305,7 +305,7 @@ fn newer_file_versions_are_read_as_the_newest_known() {
 
 #[test]
 fn native_half_grids_are_read() {
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     let read = |version, zip, grid: TinyGrid| {
         read_vdb_bytes(&vdb(version, zip, &[grid]), "a.vdb", None, &limits).unwrap().values
     };

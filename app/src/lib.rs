@@ -1,4 +1,4 @@
-//! The window of the lab: what a person sees and touches. The numbers come from [`majorant_core`].
+//! User interface of Majorant: window and command line. All estimates are computed by [`majorant_core`].
 //!
 //! ```text
 //!   panels, image ──► Command ──► lab::logic ──► Document (undo, file)  ──► Session (renders)
@@ -6,11 +6,15 @@
 //!        └──────────── ui draws ◄── ViewState ◄───────┴──── wake() ◄───────────┘
 //! ```
 //!
-//! Widgets edit a draft of the document; the draft comes back as one command and is applied after the
-//! frame is drawn. What has to be rendered again is decided by comparing documents, nowhere else.
+//! Widgets edit a draft of the document, which is returned as one command and applied after the frame is
+//! drawn. The comparison of documents alone determines what has to be rendered again.
 
+mod background;
 pub mod cli;
 pub mod lab;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
+mod layers;
 pub mod lessons;
 pub mod model;
 pub mod panels;

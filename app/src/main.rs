@@ -1,4 +1,4 @@
-//! Majorant: the window without arguments, a command line with them.
+//! Entry point of the `majorant` program: subcommands, and the window if there is none.
 
 use majorant::cli;
 use std::process::ExitCode;

@@ -1,4 +1,4 @@
-//! Writes a picture of the window after a while and ends the program: for documentation and checks.
+//! Delayed screenshot of the window, after which the program ends; for documentation and checks.
 
 use egui::{ColorImage, Context, ViewportCommand};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 type Slot = Arc<Mutex<Option<Arc<ColorImage>>>>;
 
-/// A picture of the window that is to be taken.
+/// Pending screenshot of the window.
 pub struct Screenshot {
     path: PathBuf,
     due: Instant,
@@ -17,14 +17,14 @@ pub struct Screenshot {
 }
 
 impl Screenshot {
-    /// Takes a picture after some seconds.
+    /// Schedules a screenshot after this many seconds.
     #[must_use]
     pub fn new(path: PathBuf, after_seconds: f32) -> Self {
         let wait = Duration::from_secs_f32(after_seconds.clamp(0.0, 86_400.0));
         Self { path, due: Instant::now() + wait, slot: Slot::default(), requested: false, finished: false }
     }
 
-    /// Goes on with it; returns what went wrong, if it did.
+    /// Advances the screenshot by one frame; returns an error message if it failed.
     pub fn update(&mut self, ctx: &Context) -> Option<String> {
         if self.finished {
             return None;
@@ -55,7 +55,7 @@ impl Screenshot {
 
 fn write(path: &Path, image: &ColorImage) -> Result<(), String> {
     let problem =
-        |reason: String| format!("{}: the picture of the window cannot be written: {reason}", path.display());
+        |reason: String| format!("{}: the screenshot cannot be written: {reason}", path.display());
     let side = |n: usize| u32::try_from(n).map_err(|e| problem(e.to_string()));
     let (width, height) = (side(image.width())?, side(image.height())?);
     let bytes = image.pixels.iter().flat_map(|p| [p.r(), p.g(), p.b()]).collect();

@@ -1,50 +1,50 @@
-//! Colours, type and spacing of the window: one small system for dark and light.
+//! Colours, fonts and spacing of the window, for the dark and the light theme.
 //!
-//! Greys are neutral so that they do not tint the judgement of the picture beside them; one accent
-//! marks what is selected or live; amber warns, red is reserved for what is wrong or biased.
+//! Greys are neutral, so that they do not affect the perceived colours of the image beside them. One accent
+//! colour marks selected and live elements, amber marks warnings, and red is reserved for errors and bias.
 
 use egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow, Stroke,
     Style, TextStyle, Theme, Visuals, style::ScrollStyle, style::WidgetVisuals, vec2,
 };
 
-/// The grid unit: every gap is a multiple of it.
+/// Grid unit in points; every gap is a multiple of it.
 pub const UNIT: f32 = 4.0;
-/// Width of the label column of a panel's rows.
+/// Width of the label column in the rows of a panel, in points.
 pub const LABEL_WIDTH: f32 = 112.0;
 
-/// The colours that panels and painters use beside egui's own visuals.
+/// Colours that panels and painters use in addition to egui's visuals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Palette {
-    /// Behind the picture.
+    /// Background behind the image.
     pub canvas: Color32,
     /// Panel background.
     pub panel: Color32,
-    /// Bars at the window's edges and column headings.
+    /// Background of bars at the window's edges and of column headings.
     pub bar: Color32,
-    /// Section headers.
+    /// Background of section headers.
     pub header: Color32,
-    /// Fields and plots: darker (or lighter) than the panel.
+    /// Background of fields and plots: darker (or lighter) than the panel.
     pub well: Color32,
-    /// Buttons at rest.
+    /// Background of idle buttons.
     pub control: Color32,
     /// Hairlines.
     pub line: Color32,
-    /// Text.
+    /// Body text.
     pub text: Color32,
     /// Titles and values.
     pub strong: Color32,
     /// Secondary text, still readable (contrast above 4.5 on `panel`).
     pub weak: Color32,
-    /// Selected, live, draggable.
+    /// Selected, live and draggable elements.
     pub accent: Color32,
     /// Fill of a selected control.
     pub accent_fill: Color32,
-    /// Costs or weakens the result.
+    /// Warnings: settings that increase cost or noise.
     pub warning: Color32,
-    /// Wrong, failed or biased.
+    /// Errors, failures and bias.
     pub error: Color32,
-    /// Done.
+    /// Success.
     pub good: Color32,
 }
 
@@ -85,7 +85,7 @@ const LIGHT: Palette = Palette {
 };
 
 impl Palette {
-    /// The colours of a theme.
+    /// Returns the colours of a theme.
     #[must_use]
     pub const fn of(theme: Theme) -> &'static Self {
         match theme {
@@ -94,21 +94,21 @@ impl Palette {
         }
     }
 
-    /// The colours of the theme that a ui is drawn in.
+    /// Returns the colours of the current theme of a ui.
     #[must_use]
     pub fn get(ui: &egui::Ui) -> &'static Self {
         if ui.visuals().dark_mode { &DARK } else { &LIGHT }
     }
 }
 
-/// The colour of a view in plots and captions, from 0.
+/// Colour of a view in plots and captions; views count from 0.
 #[must_use]
 pub fn view_colour(view: usize) -> Color32 {
     let [r, g, b] = majorant_core::compare::view_colour(view);
     Color32::from_rgb(r, g, b)
 }
 
-/// Installs fonts and both themes; [`Context::set_theme`] switches between them afterwards.
+/// Installs the fonts and both themes; [`Context::set_theme`] then switches between the themes.
 pub fn install(ctx: &Context) {
     ctx.set_fonts(fonts());
     for theme in [Theme::Dark, Theme::Light] {
@@ -116,15 +116,15 @@ pub fn install(ctx: &Context) {
     }
 }
 
-/// The frame of a question or a list over the window.
+/// Frame of a modal dialog.
 pub fn dialog_frame(style: &Style) -> egui::Frame {
     egui::Frame::window(style).inner_margin(Margin::same(20))
 }
 
-/// Text falls back to the monospace font, which has the arrows and shapes that the text font lacks.
+/// Fonts in which the proportional family falls back to the monospace font for missing arrows and shapes.
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
-    // A little larger than nominal: its x-height is low beside the monospace font.
+    // Slightly smaller than nominal, to match the x-height of the proportional font.
     if let Some(data) = fonts.font_data.get_mut("Hack") {
         let mut tweaked = FontData::clone(data);
         tweaked.tweak.scale = 0.96;
@@ -149,7 +149,7 @@ fn style(theme: Theme) -> Style {
     .into();
     style.drag_value_text_style = TextStyle::Monospace;
     style.animation_time = 0.1;
-    // Our tooltips say what a value means; the generic drag hint is in the shortcuts window.
+    // Tooltips explain the value; the generic drag hint is in the window of keys and gestures.
     style.explanation_tooltips = false;
     style.interaction.tooltip_delay = 0.35;
     let spacing = &mut style.spacing;
@@ -185,7 +185,7 @@ fn visuals(theme: Theme, p: &Palette) -> Visuals {
     };
     v.widgets.noninteractive = widget(p.panel, p.line, p.text);
     v.widgets.inactive = widget(p.control, Color32::TRANSPARENT, p.text);
-    // Checkboxes are small and flat: an empty one has to stand out by its fill.
+    // Checkboxes are small and flat, so that an empty one needs a contrasting fill.
     v.widgets.inactive.bg_fill = p.control.lerp_to_gamma(p.text, 0.22);
     v.widgets.hovered =
         widget(p.control.lerp_to_gamma(p.accent, 0.12), p.accent.gamma_multiply(0.6), p.strong);

@@ -1,4 +1,4 @@
-//! The film: adding samples to a pixel, and reading a picture off it.
+//! Benchmarks of the film: adding samples to a pixel, and computing images from it.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;

@@ -1,4 +1,5 @@
-//! What an edit waits for at 960 × 540: until nobody works on the old scene, and until there is a picture.
+//! Latency of an edit at 960 × 540: until all workers have stopped on the old scene, and until the first
+//! image.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;
@@ -10,10 +11,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const VIEW: ViewId = ViewId(0);
-/// What takes longer counts as this.
+/// Time-out; slower edits are recorded with this duration.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Edits a scene that renders, again and again; the sum of what `measured` says of each edit.
+/// Edits a scene repeatedly while it renders; returns the sum of `measured` over the edits.
 fn edits(scene: &str, count: u64, measured: impl Fn(&Session) -> Option<f64>) -> Duration {
     let mut doc = common::doc(scene);
     (doc.film.width, doc.film.height) = (960, 540);
@@ -23,7 +24,7 @@ fn edits(scene: &str, count: u64, measured: impl Fn(&Session) -> Option<f64>) ->
         doc.medium.scale *= if edit % 2 == 0 { 1.01 } else { 1.0 / 1.01 };
         session.submit(VIEW, Job { doc: Arc::new(doc.clone()), preview: true, role: Role::Contender });
         let since = Instant::now();
-        // What an earlier submission has shown is still there: only this number starts anew.
+        // The image of an earlier submission is still present; only this number is reset.
         while session.state(VIEW).first_picture_seconds.is_none() && since.elapsed() < PATIENCE {
             std::thread::sleep(Duration::from_micros(200));
         }
@@ -31,7 +32,7 @@ fn edits(scene: &str, count: u64, measured: impl Fn(&Session) -> Option<f64>) ->
         if edit > 0 {
             total += measured(&session).unwrap_or(PATIENCE.as_secs_f64());
         }
-        // Somewhere in the middle of a pass.
+        // The next edit falls in the middle of a pass.
         std::thread::sleep(Duration::from_millis(30 + 7 * (edit % 11)));
     }
     Duration::from_secs_f64(total)

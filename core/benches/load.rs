@@ -1,4 +1,5 @@
-//! Reading volumes: the embedded ones, and any that the environment variable `MAJORANT_BENCH_VOLUMES` names.
+//! Benchmarks of volume loading: the embedded volumes, and those listed in the environment variable
+//! `MAJORANT_BENCH_VOLUMES`, separated by colons.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;

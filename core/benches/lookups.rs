@@ -1,4 +1,4 @@
-//! Density look-ups: trilinear and stochastic, at every precision, in small and in large clouds.
+//! Benchmarks of density look-ups: trilinear and stochastic, at every precision, in small and large grids.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;
@@ -9,7 +9,7 @@ use majorant_core::math::Sampler;
 use majorant_core::medium::{Grid, Interpolation, Lattice, Packing, Precision};
 use std::hint::black_box;
 
-/// A ball of noise that fills a third of its box.
+/// A ball of noise that fills a third of its bounding box.
 fn ball(n: usize) -> Vec<[f32; 1]> {
     let mut random = Sampler::new(1, 0, 0);
     let value = |i: usize| {
@@ -19,7 +19,7 @@ fn ball(n: usize) -> Vec<[f32; 1]> {
     (0..n * n * n).map(value).collect()
 }
 
-/// Points in random order, and points along rays.
+/// Points along random rays, or in random order.
 fn points(along_rays: bool) -> Vec<Vec3> {
     let mut random = Sampler::new(2, 0, 0);
     let mut any = || Vec3::new(random.next_1d(), random.next_1d(), random.next_1d());
@@ -55,7 +55,7 @@ fn lookups(c: &mut Criterion) {
                 });
             }
         }
-        // The plain array that bricks stand for, as a yardstick.
+        // A plain array with the same values as the bricks, for comparison.
         let points = points(true);
         group.throughput(Throughput::Elements(points.len() as u64));
         group.bench_function("plain array rays", |b| {

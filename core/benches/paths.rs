@@ -1,5 +1,5 @@
-//! One path of every estimator on four scenes, the mean over many pixels; then what modes, samplers and grid sizes
-//! cost.
+//! Benchmarks of path tracing: every estimator on four scenes, averaged over many pixels, then the cost of
+//! modes, samplers and grid sizes.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;
@@ -14,14 +14,14 @@ use majorant_core::scene::{
 };
 use majorant_core::transport::CancelToken;
 
-/// Paths of one measurement, spread over the picture.
+/// Paths per measurement, spread over the image.
 const PATHS: u32 = 1024;
 
 fn trace(scene: &Scene, doc: &SceneDoc, entry: &Entry) -> Vec3 {
     let settings = Settings::new(&doc.estimator, 1);
     let mut sum = Vec3::ZERO;
     for i in 0..PATHS {
-        // Steps that share no factor with the picture's sides visit it evenly.
+        // Steps coprime to the image's width and height visit it evenly.
         let at = PathIndex {
             x: (i * 37) % scene.width,
             y: (i * 101 / 7) % scene.height,
@@ -71,7 +71,7 @@ fn options(c: &mut Criterion) {
     group.finish();
 }
 
-/// The same cloud sampled ever more finely: a path should hardly notice.
+/// The same cloud at increasing grid resolution, which should have little effect on a path.
 fn sizes(c: &mut Criterion) {
     let Some(entry) = find("uni-nee-mis") else { return };
     let mut group = c.benchmark_group("grid size");
@@ -90,7 +90,7 @@ fn sizes(c: &mut Criterion) {
     group.finish();
 }
 
-/// Raw voxels of a lumpy ball, the same shape at every size.
+/// Raw voxels of a lumpy ball with the same shape at every resolution.
 fn cloud(n: usize) -> Vec<u8> {
     let value = |i: usize| {
         let p =

@@ -1,4 +1,4 @@
-//! What scattering costs: one direction drawn, and one value looked up, for every phase function.
+//! Benchmarks of phase functions: sampling a direction, and evaluating a value.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;
@@ -8,7 +8,7 @@ use glam::Vec3;
 use majorant_core::math::Sampler;
 use majorant_core::phase::{Phase, PhaseDoc};
 
-/// Events of one measurement.
+/// Events per measurement.
 const EVENTS: u64 = 4096;
 
 fn phases(c: &mut Criterion) {

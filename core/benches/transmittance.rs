@@ -1,5 +1,5 @@
-//! One transmittance estimate by every technique: along rays through an embedded cloud, and along a closed form, one
-//! component and four. `examples/transmittance.rs` has the noise that this buys.
+//! Benchmarks of transmittance estimates by every technique, with one component and four: along rays through
+//! an embedded cloud, and along a closed form. `examples/transmittance.rs` measures the corresponding noise.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
 mod common;
@@ -12,7 +12,7 @@ use majorant_core::scene::Scene;
 use majorant_core::spectrum::{Components, Wavelengths};
 use majorant_core::transmittance::{Analytic, InMedium, Shape, TransmittanceKind};
 
-/// Estimates of one measurement.
+/// Estimates per measurement.
 const RAYS: u32 = 256;
 
 fn closed_form<const N: usize>(c: &mut Criterion, extinction: [f32; N]) {

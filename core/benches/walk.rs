@@ -1,4 +1,4 @@
-//! Free flights through local majorants, by resolution: from tentative collision to tentative collision, all
+//! Benchmarks of free flights through local majorants, by majorant resolution, with all tentative collisions
 //! taken as null.
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 

@@ -4,7 +4,8 @@ use super::harness::{Lab, click, doc, lab, open, wait};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use majorant::lab::{Command, LabApp};
+use majorant::lab::LabApp;
+use majorant::model::Command;
 use majorant::wall::dock::TABS;
 use majorant_core::compare::Verdict;
 use majorant_core::scene::{Absorption, Fault};
@@ -22,7 +23,7 @@ fn picked(tab: &'static str) -> (Lab, tempfile::TempDir) {
 
 fn replayed(lab: &mut Lab, what: &str) {
     lab.run_steps(2);
-    wait(lab, what, |app: &LabApp| !app.inspector().path.errand.is_running());
+    wait(lab, what, |app: &LabApp| !app.inspector().path.query.is_running());
     lab.run_steps(3);
 }
 
@@ -80,7 +81,7 @@ fn a_ray_is_measured_through_the_medium_and_through_shapes() {
     let (mut lab, _directory) = picked("ray");
     let measured = |lab: &mut Lab| {
         lab.run_steps(2);
-        wait(lab, "the ray", |app| !app.inspector().ray.errand.is_running());
+        wait(lab, "the ray", |app| !app.inspector().ray.query.is_running());
         lab.run_steps(3);
         assert!(lab.query_by_label_contains("look-ups each").is_some());
     };
@@ -103,7 +104,7 @@ fn an_image_is_taken_apart_every_way() {
     for split in ["technique", "scattering order", "null collisions", "hero"] {
         click(&mut lab, Role::Button, &format!("By {split}"));
         lab.run_steps(2);
-        wait(&mut lab, "the parts", |app| !app.inspector().parts.errand.is_running());
+        wait(&mut lab, "the parts", |app| !app.inspector().parts.query.is_running());
         lab.run_steps(3);
         let parts = lab.state().inspector().parts.hung_of.clone().expect("parts");
         assert_eq!(parts.split.name(), split);

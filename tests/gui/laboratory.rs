@@ -3,7 +3,7 @@
 use super::harness::{click, doc, lab, open, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
-use majorant::lab::Command;
+use majorant::model::Command;
 use majorant_core::bench::FACTORS;
 use majorant_core::estimator::{Axis, REGISTRY};
 use majorant_core::light::LightSelection;

@@ -4,9 +4,8 @@ use super::harness::{Lab, doc, lab, wait};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
-use majorant::lab::Command;
 use majorant::lessons::embedded;
-use std::sync::Arc;
+use majorant::model::Command;
 
 /// Moves the focus with Tab from the first choice to one, and takes that with the space bar.
 fn choose(lab: &mut Lab, label: &str) {
@@ -26,7 +25,7 @@ fn choose(lab: &mut Lab, label: &str) {
 fn every_lesson_is_played_through_by_keyboard() {
     let (mut lab, _directory) = lab();
     for lesson in embedded() {
-        lab.state_mut().request(Command::OpenLesson(Arc::clone(lesson)));
+        lab.state_mut().request(Command::OpenLesson(lesson.id.clone()));
         lab.run_steps(3);
         for (i, step) in lesson.steps.iter().enumerate() {
             let what = format!("{}, step {}", lesson.id, i + 1);
@@ -52,7 +51,7 @@ fn every_lesson_is_played_through_by_keyboard() {
 #[test]
 fn equations_are_set_and_told_to_who_cannot_see_them() {
     let (mut lab, _directory) = lab();
-    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[1])));
+    lab.state_mut().request(Command::OpenLesson(embedded()[1].id.clone()));
     lab.run_steps(3);
     let shown = |tex: &str| lab.query_all_by_role_and_label(Role::Image, tex).count();
     assert!(shown(r"\bar\mu") >= 2, "within sentences");
@@ -72,7 +71,7 @@ fn a_narrow_window_has_room_for_the_lesson_and_the_pictures() {
     lab.run_steps(2);
     let method = |lab: &Lab| lab.query_by_label("how it is estimated").is_some();
     assert!(method(&lab));
-    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[0])));
+    lab.state_mut().request(Command::OpenLesson(embedded()[0].id.clone()));
     lab.run_steps(3);
     assert!(!method(&lab));
     lab.key_press(Key::F3);
@@ -86,13 +85,13 @@ fn a_narrow_window_has_room_for_the_lesson_and_the_pictures() {
 #[test]
 fn numbers_in_a_lesson_are_those_of_the_lab() {
     let (mut lab, _directory) = lab();
-    lab.state_mut().request(Command::OpenLesson(Arc::clone(&embedded()[0])));
+    lab.state_mut().request(Command::OpenLesson(embedded()[0].id.clone()));
     lab.run_steps(3);
     lab.state_mut().request(Command::AnswerLesson(2));
     lab.state_mut().request(Command::TurnLesson(1));
     lab.run_steps(3);
     wait(&mut lab, "the ray", |app| {
-        let bench = app.inspector().ray.errand.newest();
+        let bench = app.inspector().ray.query.newest();
         bench.is_some_and(|bench| (bench.truth() - (-2.0f64).exp()).abs() < 1e-6)
     });
     lab.run_steps(3);

@@ -4,10 +4,11 @@ use super::harness::{Lab, click, doc, lab, lab_on, open, undo, wait};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use majorant::lab::{Command, LabApp};
+use majorant::lab::LabApp;
+use majorant::model::Command;
 use majorant::model::Source;
+use majorant::model::WallEdit;
 use majorant::view::tone_mapper::PictureId;
-use majorant::wall::WallEdit;
 use majorant_core::compare::{Against, LEAST_SAMPLES, Verdict, label};
 use majorant_core::scene::{Fault, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
@@ -197,7 +198,7 @@ fn paused_are_all_views_and_the_reference_those_that_come_later_too() {
     assert!(each(lab.state(), 1));
     let preset = majorant::wall::presets::PRESETS[0].name;
     lab.state_mut().request(Command::OpenPreset(preset));
-    lab.state_mut().request(Command::Answer(majorant::lab::Answer::Discard));
+    lab.state_mut().request(Command::Answer(majorant::model::Answer::Discard));
     lab.step();
     assert!(doc(&lab).view_count() > 1 && lab.state().wall().is_paused());
     wait(&mut lab, "the other scene", |app| {
@@ -333,7 +334,7 @@ fn a_path_is_that_of_the_scene_as_it_is_now() {
         let samples = |app: &LabApp| app.wall().analysis().pixel.as_ref().map_or(0, |(_, v)| v.len());
         wait(&mut lab, "its samples", |app| samples(app) == 1);
         lab.run_steps(2);
-        wait(&mut lab, "the path", |app| !app.inspector().path.errand.is_running());
+        wait(&mut lab, "the path", |app| !app.inspector().path.query.is_running());
         lab.run_steps(2);
         let sample = lab.state().inspector().path.sample.expect("a sample");
         let probe = lab.state().wall().slots()[0].probe().expect("a scene");

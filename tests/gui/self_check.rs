@@ -3,8 +3,8 @@
 use super::harness::{Lab, click, doc, lab, lab_on, wait};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
-use majorant::lab::Command;
 use majorant::lab::self_check::Ending;
+use majorant::model::Command;
 use majorant::model::Source;
 use majorant_core::check::Verdict;
 use majorant_core::estimator::REGISTRY;

@@ -4,15 +4,16 @@ use super::harness::{Lab, click, doc, drag, drop_file, lab, lab_on, undo, wait};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::Queryable;
-use majorant::lab::Command;
+use majorant::model::Command;
 use majorant::model::Source;
+use majorant::model::WallEdit;
+use majorant::model::{Arrangement, Pair, WindowDoc};
 use majorant::view::tone_mapper::PictureId;
-use majorant::wall::WallEdit;
 use majorant::wall::dock::TABS;
 use majorant::wall::presets::PRESETS;
 use majorant_core::compare::{Against, Verdict, maps};
 use majorant_core::io::{Library, embedded, export, scene_file};
-use majorant_core::scene::{Arrangement, Fairness, Pair, ReferenceDoc, SceneDoc};
+use majorant_core::scene::{Fairness, ReferenceDoc, SceneDoc};
 use majorant_core::session::{Job, Role as DirectionSample, Session, Status, ViewId};
 use std::sync::Arc;
 
@@ -82,7 +83,7 @@ fn views_come_and_go_and_each_has_its_own_estimator() {
 fn keys_arrange_the_views() {
     let (mut lab, _directory) = lab();
     click(&mut lab, Role::Button, "2 views");
-    let arrangement = |lab: &Lab| doc(lab).compare.arrangement;
+    let arrangement = |lab: &Lab| WindowDoc::of(doc(lab)).arrangement;
     let over = lab.get_by_label("View A").rect().center();
     lab.hover_at(over);
     for (key, expected) in [
@@ -275,9 +276,9 @@ fn the_wall_is_saved_with_the_scene() {
     lab.run_steps(3);
     let read = scene_file::load(&directory.path().join("biased.toml")).expect("a scene");
     assert_eq!(read, *doc(&lab));
-    let compare = &read.compare;
+    let (compare, window) = (&read.compare, WindowDoc::of(&read));
     assert_eq!(
-        (compare.arrangement, compare.fairness, compare.pair),
+        (window.arrangement, compare.fairness, window.pair),
         (Arrangement::Wipe, Fairness::Samples, Pair(0, 1))
     );
 }
@@ -287,7 +288,7 @@ fn a_report_is_written_from_the_window() {
     let (mut lab, directory) = biased();
     finished(&mut lab);
     let folder = directory.path().join("report");
-    lab.state_mut().request(Command::Chosen(majorant::lab::Purpose::ExportReport, folder.clone()));
+    lab.state_mut().request(Command::Chosen(majorant::model::Purpose::ExportReport, folder.clone()));
     let page = folder.join("index.html");
     wait(&mut lab, "the page", |app| app.messages().lines().iter().any(|l| l.text.starts_with("Wrote")));
     let text = std::fs::read_to_string(page).expect("a page");
@@ -295,7 +296,7 @@ fn a_report_is_written_from_the_window() {
     assert!(folder.join("compare.exr").exists() && folder.join("ranking.csv").exists());
     // A folder that cannot be made is a message, and nothing else.
     let blocked = directory.path().join("biased.toml").join("report");
-    lab.state_mut().request(Command::Chosen(majorant::lab::Purpose::ExportReport, blocked));
+    lab.state_mut().request(Command::Chosen(majorant::model::Purpose::ExportReport, blocked));
     wait(&mut lab, "the refusal", |app| {
         app.messages().lines().iter().any(|l| l.text.contains("biased.toml"))
     });

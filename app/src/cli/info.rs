@@ -1,7 +1,7 @@
 //! `majorant info`: what is in a file.
 
 use super::{Failure, options, print_line};
-use majorant_core::io::volume::{self, FileInfo, GridInfo, Limits, VoxelGrid};
+use majorant_core::io::volume::{self, FileInfo, GridInfo, ReadLimits, VoxelGrid};
 use majorant_core::io::{picture, scene_file};
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     match extension.to_ascii_lowercase().as_str() {
         "vdb" => grids(&volume::file_info(path)?, arguments.json),
         "vol" | "npy" | "raw" => {
-            let grid = volume::read_volume(path, None, &Limits::default())?;
+            let grid = volume::read_volume(path, None, &ReadLimits::default())?;
             let file = FileInfo { grids: vec![describe(&grid, extension)], ..FileInfo::default() };
             grids(&file, arguments.json)
         }

@@ -3,8 +3,8 @@
 use super::dialogs::{Dialog, PathPrompt};
 use super::{Command, LabApp, Purpose, Severity};
 use crate::model::Source;
+use crate::model::WallEdit;
 use crate::model::own_volume::{Look, with_volume};
-use crate::wall::WallEdit;
 use crate::widgets::format_number;
 use majorant_core::compare;
 use majorant_core::io::picture;

@@ -17,7 +17,8 @@ impl LabApp {
     }
 
     /// Opens a lesson where it was left, or at its beginning if it was finished.
-    pub(super) fn open_lesson(&mut self, lesson: Arc<Lesson>) {
+    pub(super) fn open_lesson(&mut self, id: &str) {
+        let Some(lesson) = self.find_lesson(id) else { return };
         let reached = self.settings.lessons.get(&lesson.id).copied().unwrap_or(0);
         let step = if reached >= lesson.steps.len() { 0 } else { reached };
         self.settings.scene_column = true;
@@ -26,18 +27,25 @@ impl LabApp {
         self.show_step();
     }
 
+    /// The lesson with this id, the user's own before an embedded one; without one the window says which there are.
+    fn find_lesson(&mut self, id: &str) -> Option<Arc<Lesson>> {
+        let known = || self.own_lessons.iter().chain(embedded());
+        let lesson = known().find(|lesson| lesson.id == id).cloned();
+        if lesson.is_none() {
+            let ids: Vec<_> = known().map(|lesson| lesson.id.as_str()).collect();
+            let message = format!("there is no lesson `{id}`: there are {}", ids.join(", "));
+            self.messages.fail(message);
+        }
+        lesson
+    }
+
     /// Opens the lesson with this id, at a page if one follows a colon.
     pub(super) fn open_named_lesson(&mut self, named: &str) {
         let (id, page) = match named.rsplit_once(':') {
             Some((id, page)) => (id, page.parse::<usize>().ok()),
             None => (named, None),
         };
-        let known: Vec<_> = embedded().iter().chain(&self.own_lessons).cloned().collect();
-        let Some(lesson) = known.iter().find(|lesson| lesson.id == id) else {
-            let ids: Vec<_> = known.iter().map(|lesson| lesson.id.as_str()).collect();
-            return self.messages.fail(format!("there is no lesson `{id}`: there are {}", ids.join(", ")));
-        };
-        self.open_lesson(Arc::clone(lesson));
+        self.open_lesson(id);
         if let (Some(page), Some(player)) = (page, &mut self.lesson) {
             player.step = page.saturating_sub(1).min(player.lesson.steps.len() - 1);
             self.show_step();

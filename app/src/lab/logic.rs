@@ -3,14 +3,16 @@
 use super::dialogs::Dialog;
 use super::tasks::Outcome;
 use super::{Answer, Command, LabApp, Severity};
+use crate::model::{Arrangement, WindowDoc};
 use crate::model::{Document, Source, resolved};
+use crate::model::{WallEdit, edited};
 use crate::panels::faults;
 use crate::view::image_view::ImageView;
 use crate::view::tone_mapper::PictureId;
+use crate::wall::Tool;
 use crate::wall::presets::PRESETS;
-use crate::wall::{Tool, WallEdit, edited};
 use egui::{Context, ViewportCommand};
-use majorant_core::scene::{Arrangement, SceneDoc};
+use majorant_core::scene::SceneDoc;
 use majorant_core::session::ViewId;
 use std::path::Path;
 use std::time::Duration;
@@ -46,7 +48,7 @@ impl LabApp {
         self.tone_mapper.order(self.wall.order());
         self.self_check.poll();
         self.factor_curve.poll();
-        while let Some(outcome) = self.tasks.take() {
+        for outcome in self.tasks.take() {
             self.finish(outcome);
         }
         if let Some(left) = self.messages.expire() {
@@ -181,7 +183,7 @@ impl LabApp {
             Command::SelectView(view) => self.wall.select(view),
             Command::Flip => self.flip(),
             Command::Arrange(arrangement) => {
-                let now = self.doc().compare.arrangement;
+                let now = WindowDoc::of(self.doc()).arrangement;
                 let next = if now == arrangement { Arrangement::Grid } else { arrangement };
                 self.apply(Command::Wall(WallEdit::Arrange(next)));
             }
@@ -276,7 +278,7 @@ impl LabApp {
         match command {
             Command::Open(source) => self.open(&source),
             Command::OpenPreset(name) => self.open_preset(name),
-            Command::OpenLesson(lesson) => self.open_lesson(lesson),
+            Command::OpenLesson(id) => self.open_lesson(&id),
             Command::Quit => self.quitting = true,
             _ => {}
         }
@@ -306,7 +308,7 @@ impl LabApp {
 
     /// Shows the next view, or has the wall show one at a time.
     fn flip(&mut self) {
-        if self.doc().compare.arrangement == Arrangement::Flip {
+        if WindowDoc::of(self.doc()).arrangement == Arrangement::Flip {
             let pictures_shown = self.wall.pictures_shown();
             self.wall.flipped = (self.wall.flipped + 1) % pictures_shown.len().max(1);
             if let Some(PictureId::View(view)) = pictures_shown.get(self.wall.flipped) {

@@ -4,13 +4,13 @@ use super::shortcuts::keys_of;
 use super::{Command, LabApp, Purpose};
 use crate::lessons;
 use crate::model::Source;
+use crate::model::WallEdit;
+use crate::model::{Arrangement, WindowDoc};
 use crate::theme::Palette;
-use crate::wall::WallEdit;
 use crate::wall::presets::PRESETS;
 use egui::{Align, Button, Checkbox, Label, Layout, MenuBar, RichText, ThemePreference, Ui};
 use majorant_core::io::embedded;
-use majorant_core::scene::{Arrangement, ToneCurve};
-use std::sync::Arc;
+use majorant_core::scene::ToneCurve;
 
 type Commands = Vec<Command>;
 
@@ -141,7 +141,7 @@ impl LabApp {
                 _ => "›  ",
             };
             if ui.button(format!("{mark}{}", lesson.title)).on_hover_text(&lesson.about).clicked() {
-                commands.push(Command::OpenLesson(Arc::clone(lesson)));
+                commands.push(Command::OpenLesson(lesson.id.clone()));
                 ui.close();
             }
         }
@@ -168,7 +168,7 @@ impl LabApp {
         item_if(ui, several, "Difference", Command::Arrange(Arrangement::Difference), commands);
         item_if(ui, several, "Flip", Command::Flip, commands);
         ui.separator();
-        let mut own = self.doc().compare.own_zoom;
+        let mut own = WindowDoc::of(self.doc()).own_zoom;
         if ui.checkbox(&mut own, "Every view has its own zoom").clicked() {
             commands.push(Command::Wall(WallEdit::OwnZoom(own)));
         }

@@ -2,7 +2,6 @@
 //!
 //! | file | does |
 //! | --- | --- |
-//! | `command.rs` | everything that the window can be asked to do |
 //! | `logic.rs` | reads what happened elsewhere, carries out commands; paints nothing |
 //! | `files.rs` | the commands that touch files |
 //! | `ui.rs` | lays the window out; changes nothing but the draft that it hands back |
@@ -11,13 +10,10 @@
 
 mod backend;
 mod columns;
-mod command;
 mod dialogs;
-mod factor_curve;
 mod files;
 mod help;
 mod icon;
-pub mod latency;
 mod lessons;
 mod loading;
 mod logic;
@@ -26,21 +22,17 @@ mod messages;
 mod run;
 pub mod self_check;
 mod shortcuts;
-pub mod stats;
 mod status_bar;
 mod tasks;
 mod ui;
 
-pub use command::{Answer, Command, Purpose};
-pub use factor_curve::FactorCurve;
-pub use latency::Latency;
 pub use messages::{Message, Messages, Severity};
 pub use run::{LabError, LabOptions, run};
-pub use stats::Stats;
-pub use tasks::GridLists;
 
 use crate::lessons::{Lesson, Player};
-use crate::model::{Document, Settings, Source};
+use crate::model::{
+    Answer, Command, Document, FactorCurve, GridLists, Latency, Purpose, Settings, Source, Stats,
+};
 use crate::screenshot::Screenshot;
 use crate::theme;
 use crate::view::tone_mapper::{PictureId, ToneMapper, Waker};

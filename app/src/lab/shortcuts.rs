@@ -1,10 +1,10 @@
 //! Keyboard and mouse: one table for the keys, which the help window and the menus read too.
 
 use super::Command;
-use super::command::Purpose;
-use crate::wall::WallEdit;
+use crate::model::Arrangement;
+use crate::model::Purpose;
+use crate::model::WallEdit;
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
-use majorant_core::scene::Arrangement;
 
 /// A key and what it does.
 pub struct Shortcut {

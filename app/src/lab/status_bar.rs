@@ -1,7 +1,7 @@
 //! The line at the foot of the window: what the program does, the pixel under the pointer, the zoom.
 
 use super::LabApp;
-use super::stats::{count, duration};
+use crate::model::stats::{count, duration};
 use crate::theme::Palette;
 use crate::view::readout;
 use crate::view::tone_mapper::PictureId;

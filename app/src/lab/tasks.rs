@@ -2,6 +2,7 @@
 //! Each runs on a named thread and answers with one [`Outcome`] that `logic` picks up.
 
 use super::Purpose;
+use crate::background::{Background, Reply, Wake};
 use crate::model::own_volume::{self, Look};
 use majorant_core::compare::{Experiment, Reference, report};
 use majorant_core::film::Snapshot;
@@ -10,7 +11,6 @@ use majorant_core::scene::SceneDoc;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// What a task came to.
 #[derive(Debug)]
@@ -27,41 +27,45 @@ pub enum Outcome {
     Reference(PathBuf, Result<Reference, String>),
 }
 
-/// Tasks that run and answers that wait.
+/// One task.
+type Job = Box<dyn FnOnce() -> Outcome + Send>;
+
+/// Tasks in progress, on one thread for each kind.
 pub struct Tasks {
-    sender: Sender<Outcome>,
-    receiver: Receiver<Outcome>,
-    wake: Arc<dyn Fn() + Send + Sync>,
+    workers: BTreeMap<&'static str, Background<Job, Outcome>>,
+    wake: Wake,
 }
 
 impl Tasks {
     /// No tasks yet; `wake` is called after each.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let (sender, receiver) = channel();
-        Self { sender, receiver, wake: Arc::new(wake) }
+        Self { workers: BTreeMap::new(), wake: Arc::new(wake) }
     }
 
-    /// An answer that came in.
-    pub fn take(&self) -> Option<Outcome> {
-        self.receiver.try_recv().ok()
+    /// The outcomes since the last call.
+    pub fn take(&mut self) -> Vec<Outcome> {
+        self.workers.values_mut().flat_map(Background::poll).collect()
     }
 
-    fn spawn(&self, name: &str, work: impl FnOnce() -> Outcome + Send + 'static) -> Result<(), String> {
-        let (sender, wake) = (self.sender.clone(), Arc::clone(&self.wake));
-        let run = move || {
-            // The window may be gone by now; then nobody wants the answer.
-            let _ = sender.send(work());
-            wake();
-        };
-        let spawned = std::thread::Builder::new().name(format!("majorant-{name}")).spawn(run);
-        spawned.map(|_| ()).map_err(|error| format!("Cannot start a thread for {name}: {error}"))
+    fn spawn(
+        &mut self,
+        name: &'static str,
+        job: impl FnOnce() -> Outcome + Send + 'static,
+    ) -> Result<(), String> {
+        let worker = self.workers.entry(name).or_insert_with(|| {
+            let worker = Background::new(name, |job: Job, reply: &Reply<'_, Job, Outcome>| reply.send(job()));
+            let wake = Arc::clone(&self.wake);
+            worker.set_wake(move || wake());
+            worker
+        });
+        worker.queue(Box::new(job)).map_err(|error| format!("Cannot start a thread for {name}: {error}"))
     }
 
     /// Shows the desktop's file dialog.
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn pick(&self, purpose: Purpose, directory: &Path) -> Result<(), String> {
+    pub fn pick(&mut self, purpose: Purpose, directory: &Path) -> Result<(), String> {
         let directory = directory.to_owned();
         self.spawn("dialog", move || Outcome::Picked(purpose, dialog(purpose, &directory)))
     }
@@ -70,7 +74,7 @@ impl Tasks {
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn list(&self, named: String, path: PathBuf) -> Result<(), String> {
+    pub fn list(&mut self, named: String, path: PathBuf) -> Result<(), String> {
         self.spawn("grids", move || Outcome::Listed(named, names(&path)))
     }
 
@@ -78,7 +82,12 @@ impl Tasks {
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn read_reference(&self, path: PathBuf, doc: SceneDoc, mut library: Library) -> Result<(), String> {
+    pub fn read_reference(
+        &mut self,
+        path: PathBuf,
+        doc: SceneDoc,
+        mut library: Library,
+    ) -> Result<(), String> {
         self.spawn("reference", move || {
             let read = Reference::read(&path).map_err(|e| e.to_string());
             let read = read.and_then(|reference| match reference.unfit {
@@ -103,7 +112,7 @@ impl Tasks {
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn report(&self, folder: PathBuf, experiment: Experiment) -> Result<(), String> {
+    pub fn report(&mut self, folder: PathBuf, experiment: Experiment) -> Result<(), String> {
         self.spawn("report", move || {
             let written = report::write(&experiment, &folder, &report::Formats::all());
             Outcome::Exported(folder, written.map(|_| ()).map_err(|e| e.to_string()))
@@ -114,7 +123,7 @@ impl Tasks {
     ///
     /// # Errors
     /// When there is no thread to be had.
-    pub fn look_into(&self, path: PathBuf) -> Result<(), String> {
+    pub fn look_into(&mut self, path: PathBuf) -> Result<(), String> {
         self.spawn("volume", move || {
             let look = own_volume::look_into(&path);
             Outcome::Volume(path, look)
@@ -126,7 +135,7 @@ impl Tasks {
     /// # Errors
     /// When there is no thread to be had.
     pub fn export(
-        &self,
+        &mut self,
         png: bool,
         path: PathBuf,
         snapshot: Arc<Snapshot>,
@@ -145,7 +154,7 @@ impl Tasks {
 /// Names of the grids that can be read; the formats without names hold one grid.
 fn names(path: &Path) -> Result<Vec<String>, String> {
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("vdb")) {
-        let read = volume::read_volume(path, None, &volume::Limits::default());
+        let read = volume::read_volume(path, None, &volume::ReadLimits::default());
         return read.map(|_| Vec::new()).map_err(|error| error.to_string());
     }
     let grids = volume::info(path).map_err(|error| error.to_string())?;
@@ -177,34 +186,4 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
     };
     let dialog = dialog.set_title(title).add_filter(filter, extensions);
     if default.is_empty() { dialog.pick_file() } else { dialog.set_file_name(default).save_file() }
-}
-
-/// Names of the grids in files, by the name that the document has for the file.
-#[derive(Clone, Debug, Default)]
-pub struct GridLists(BTreeMap<String, Option<Vec<String>>>);
-
-impl GridLists {
-    /// Whether the file was listed or is being listed.
-    #[must_use]
-    pub fn is_listed(&self, file: &str) -> bool {
-        self.0.contains_key(file)
-    }
-
-    /// The names, once they are known.
-    #[must_use]
-    pub fn names(&self, file: &str) -> Option<&[String]> {
-        self.0.get(file)?.as_deref().filter(|names| !names.is_empty())
-    }
-
-    pub(super) fn begin(&mut self, file: &str) {
-        self.0.insert(file.to_owned(), None);
-    }
-
-    pub(super) fn finish(&mut self, file: String, names: Vec<String>) {
-        self.0.insert(file, Some(names));
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.0.clear();
-    }
 }

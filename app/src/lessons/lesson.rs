@@ -274,7 +274,7 @@ impl Stop {
             }
         };
         if let Some(views) = self.views {
-            doc = crate::wall::edited(&doc, &crate::wall::WallEdit::Count(views));
+            doc = crate::model::edited(&doc, &crate::model::WallEdit::Count(views));
         }
         let doc = scene_file::override_keys(&doc, &self.set).map_err(|e| e.to_string())?;
         match majorant_core::estimator::validate(&doc).first() {

@@ -58,7 +58,7 @@ impl Live<'_> {
     fn value(&self, name: &str) -> Option<String> {
         if let Some(name) = name.strip_prefix("ray.") {
             let ray = &self.inspector.ray;
-            let bench = ray.errand.answer_to(&dock::ray::question(self.wall, ray)?)?;
+            let bench = ray.query.answer_to(&dock::ray::question(self.wall, ray)?)?;
             let spread = || {
                 let n = bench.estimates.len() as f64;
                 bench.mean[1] * n.sqrt()

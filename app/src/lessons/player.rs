@@ -2,7 +2,7 @@
 
 use super::prose::prose_ui;
 use super::{Lesson, Live, Stage, Step};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::{Palette, UNIT};
 use crate::widgets::badge;
 use egui::{Button, Frame, Id, Key, Label, Margin, ProgressBar, RadioButton, RichText, ScrollArea, Ui};

@@ -1,6 +1,6 @@
 //! The open scene: document, undo, where it came from.
 
-use super::{History, rebase, resolved};
+use super::{History, WindowDoc, rebase, resolved};
 use majorant_core::io::{embedded, scene_file};
 use majorant_core::scene::{CompareDoc, SceneDoc};
 use std::path::{Path, PathBuf};
@@ -63,6 +63,9 @@ impl Document {
     /// A sentence that names the file and what is wrong with it.
     pub fn open(source: &Source) -> Result<Self, String> {
         let doc = source.load()?;
+        if let (Err(problem), Source::File(path)) = (WindowDoc::read(&doc), source) {
+            return Err(format!("{}: {problem}. Correct the key, or delete it.", path.display()));
+        }
         let path = match source {
             Source::File(path) => Some(absolute(path)),
             Source::New | Source::Embedded(_) => None,
@@ -186,6 +189,7 @@ fn worth_saving(doc: &SceneDoc) -> SceneDoc {
     let compare =
         CompareDoc { views: doc.compare.views, reference: doc.compare.reference, ..CompareDoc::default() };
     doc.compare = compare;
+    doc.window.clear();
     doc
 }
 

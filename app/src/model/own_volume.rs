@@ -1,7 +1,7 @@
 //! What becomes of a scene when its volume is replaced by a person's own.
 
 use glam::Vec3;
-use majorant_core::io::volume::{Limits, Volume, read_sparse_volume};
+use majorant_core::io::volume::{ReadLimits, Volume, read_sparse_volume};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
 use std::path::Path;
 
@@ -24,7 +24,8 @@ pub struct Look {
 /// # Errors
 /// What is wrong with the file, and the cure.
 pub fn look_into(path: &Path) -> Result<Look, String> {
-    let volume = read_sparse_volume(path, None, &Limits::default(), &|_| ()).map_err(|e| e.to_string())?;
+    let volume =
+        read_sparse_volume(path, None, &ReadLimits::default(), &|_| ()).map_err(|e| e.to_string())?;
     volume.validate_density(path).map_err(|e| e.to_string())?;
     Ok(measure(&volume))
 }

@@ -1,7 +1,7 @@
 //! Where the medium's density comes from, how dense it is, and where its box stands.
 
 use super::{Column, Cx, Panel, placement};
-use crate::lab::{Command, GridLists, Purpose};
+use crate::model::{Command, GridLists, Purpose};
 use crate::widgets::{Value, hint, key, path_field, row, row_of, segmented};
 use egui::{ComboBox, Ui};
 use majorant_core::medium::{Interpolation, Precision};

@@ -1,7 +1,7 @@
 //! Emission: how hot the medium is, and how it glows.
 
 use super::{Column, Cx, Panel, density};
-use crate::lab::Purpose;
+use crate::model::Purpose;
 use crate::widgets::{Value, format_number, hint, key, row, segmented, switch};
 use egui::Ui;
 use majorant_core::scene::{DensityDoc, EmissionDoc, GridRef};

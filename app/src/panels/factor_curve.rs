@@ -1,7 +1,7 @@
 //! What the majorant's factor costs, as a plot: look-ups, noise and bias against it.
 
 use super::Cx;
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::{Palette, UNIT, view_colour};
 use crate::widgets::{callout, format_number, hint};
 use egui::{Button, CollapsingHeader, Color32, Rangef, RichText, Ui};

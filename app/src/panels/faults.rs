@@ -1,7 +1,7 @@
 //! What goes wrong: mistakes of real renderers, planted on purpose, and the lab's own means to find them.
 
 use super::{Column, Cx, Panel};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::Palette;
 use crate::widgets::{callout, hint};
 use egui::{Color32, RadioButton, RichText, Ui};

@@ -1,6 +1,6 @@
 //! Every field of every kind of light.
 
-use crate::lab::{Command, Purpose};
+use crate::model::{Command, Purpose};
 use crate::widgets::{SpectrumField, Value, Vector, key, path_field, row, spectrum_editor, switch};
 use egui::Ui;
 use majorant_core::scene::LightDoc;

@@ -1,7 +1,7 @@
 //! The lights: a list to which kinds are added from their templates.
 
 use super::{Column, Cx, Panel, light_fields};
-use crate::lab::{Command, Purpose};
+use crate::model::{Command, Purpose};
 use crate::theme::Palette;
 use crate::widgets::{callout, hint};
 use egui::collapsing_header::CollapsingState;

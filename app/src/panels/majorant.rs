@@ -2,7 +2,7 @@
 
 use super::factor_curve::factor_curve_ui;
 use super::{Column, Cx, Panel};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::Palette;
 use crate::widgets::{
     Value, badge, callout, format_number, hint, key, optional_key, row, row_of, segmented, switch,

@@ -23,8 +23,8 @@ mod placement;
 mod render;
 mod scene;
 
-use crate::lab::{Command, FactorCurve, GridLists, Latency, Stats};
 use crate::model::Settings;
+use crate::model::{Command, FactorCurve, GridLists, Latency, Stats};
 use crate::theme::Palette;
 use egui::{Color32, Ui};
 use majorant_core::scene::SceneDoc;

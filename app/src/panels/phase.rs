@@ -1,7 +1,7 @@
 //! The phase function: which way light scatters.
 
 use super::{Column, Cx, Panel, phase_table};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::widgets::{Value, format_number, phase_lobe, row, segmented};
 use egui::Ui;
 use majorant_core::phase::{Parameter, Phase};

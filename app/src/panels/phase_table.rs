@@ -1,7 +1,7 @@
 //! The points of a tabulated phase function, typed or from a file.
 
 use super::Cx;
-use crate::lab::{Command, Purpose};
+use crate::model::{Command, Purpose};
 use crate::theme::Palette;
 use crate::widgets::{buffered_text, callout, hint, path_field, row, segmented};
 use egui::Ui;

@@ -1,19 +1,19 @@
-//! Develops pictures and maps on a thread of its own, so that no frame waits for it.
+//! Tone mapping of pictures and painting of maps, in the background.
 //!
-//! The session rings a [`Waker`] when it has something new; the developer looks, at most thirty times a
-//! second and never more often than it can afford, develops what the window has ordered and asks for a
-//! repaint.
+//! The session calls [`Waker::wake`] when a view has a new picture. The worker then tone-maps the pictures that the
+//! window shows, at most thirty times a second and within its share of a core, and requests a repaint.
 
+use crate::background::{Background, Inbox, Reply};
+use crate::model::{Pair, WindowDoc};
 use egui::{Color32, ColorImage};
 use majorant_core::compare::maps::{Map, Range};
 use majorant_core::compare::{Estimate, Experiment, Reference, View, label};
 use majorant_core::film::{Snapshot, display::DisplayTransform};
-use majorant_core::scene::{Pair, SceneDoc, ViewDoc};
+use majorant_core::scene::{SceneDoc, ViewDoc};
 use majorant_core::session::ViewId;
 use std::collections::BTreeMap;
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread::JoinHandle;
-use std::time::{Duration, Instant};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// Shortest time between two pictures.
 const SHORTEST: Duration = Duration::from_millis(33);
@@ -104,65 +104,38 @@ pub struct MapImage {
     pub range: Range,
 }
 
-#[derive(Default)]
-struct Inbox {
-    woken: bool,
-    closed: bool,
-    order: Order,
-    interval: Duration,
-    done: BTreeMap<PictureId, Option<ViewImage>>,
-}
+type Done = BTreeMap<PictureId, Option<ViewImage>>;
 
-/// Tells the window that there is something new; cheap to clone and to ring.
+/// Tells the tone mapper that there is something new; cheap to clone.
 #[derive(Clone, Default)]
-pub struct Waker {
-    inbox: Arc<(Mutex<Inbox>, Condvar)>,
-}
+pub struct Waker(Inbox<(), Done>);
 
 impl Waker {
-    /// Rings.
+    /// Has the tone mapper look again.
     pub fn wake(&self) {
-        self.change(|inbox| inbox.woken = true);
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Inbox)) {
-        change(&mut self.lock());
-        self.inbox.1.notify_one();
-    }
-
-    /// Every change leaves the desk consistent, so a poisoned lock is still good.
-    fn lock(&self) -> MutexGuard<'_, Inbox> {
-        self.inbox.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Waits for an order and at least until `rested`; `None` means close.
-    fn wait(&self, rested: Instant) -> Option<Order> {
-        let mut inbox = self.lock();
-        loop {
-            if inbox.closed {
-                return None;
-            }
-            let left = rested.saturating_duration_since(Instant::now());
-            inbox = match (inbox.woken, left.is_zero()) {
-                (true, true) => break,
-                (true, false) => {
-                    self.inbox.1.wait_timeout(inbox, left).unwrap_or_else(PoisonError::into_inner).0
-                }
-                (false, _) => self.inbox.1.wait(inbox).unwrap_or_else(PoisonError::into_inner),
-            };
-        }
-        inbox.woken = false;
-        Some(inbox.order.clone())
+        self.0.replace(());
     }
 }
 
 /// Finds the newest picture of a view.
-pub type Poll = Box<dyn Fn(ViewId) -> Option<Arc<Snapshot>> + Send>;
+pub type Poll = Box<dyn Fn(ViewId) -> Option<Arc<Snapshot>> + Send + Sync>;
 
-/// The thread that develops. Dropping it stops and joins it.
+/// What the window wants, and the shortest time between pictures that it can afford.
+#[derive(Default)]
+struct Wanted {
+    order: Order,
+    interval: Duration,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Every change leaves the value consistent, so a poisoned lock is still good.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The worker that tone-maps pictures and paints maps.
 pub struct ToneMapper {
-    waker: Waker,
-    thread: Option<JoinHandle<()>>,
+    wanted: Arc<Mutex<Wanted>>,
+    worker: Background<(), Done>,
 }
 
 impl ToneMapper {
@@ -170,77 +143,67 @@ impl ToneMapper {
     ///
     /// # Errors
     /// When the operating system refuses a thread.
-    pub fn new(waker: Waker, poll: Poll, repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let theirs = waker.clone();
-        let thread = std::thread::Builder::new()
-            .name("majorant-developer".into())
-            .spawn(move || run(&theirs, &poll, &repaint))?;
-        Ok(Self { waker, thread: Some(thread) })
-    }
-
-    /// Develops this from now on, and what is new in it at once.
-    pub fn order(&self, order: Order) {
-        if !self.waker.lock().order.is_like(&order) {
-            self.waker.change(|inbox| {
-                inbox.order = order;
-                inbox.woken = true;
+    pub fn new(
+        waker: Waker,
+        poll: Poll,
+        repaint: impl Fn() + Send + Sync + 'static,
+    ) -> std::io::Result<Self> {
+        let wanted = Arc::new(Mutex::new(Wanted::default()));
+        let (theirs, rests) = (Arc::clone(&wanted), Arc::clone(&wanted));
+        let cache = Mutex::new(Cache::default());
+        let work = move |(): (), reply: &Reply<'_, (), Done>| {
+            let order = lock(&theirs).order.clone();
+            let done = lock(&cache).pictures_of(&order, &poll);
+            reply.merge(done, |mut older, newer| {
+                older.extend(newer);
+                older
             });
-        }
-    }
-
-    /// Shortest time between pictures that the window can afford.
-    pub fn set_interval(&self, interval: Duration) {
-        self.waker.lock().interval = interval;
-    }
-
-    /// The pictures that were not taken yet; none for what has nothing to show any more.
-    #[must_use]
-    pub fn take(&self) -> BTreeMap<PictureId, Option<ViewImage>> {
-        std::mem::take(&mut self.waker.lock().done)
-    }
-}
-
-impl Drop for ToneMapper {
-    fn drop(&mut self) {
-        self.waker.change(|inbox| inbox.closed = true);
-        if let Some(thread) = self.thread.take() {
-            // A developer that panicked leaves the last picture; there is nothing to add here.
-            let _ = thread.join();
-        }
-    }
-}
-
-fn run(waker: &Waker, poll: &Poll, repaint: &dyn Fn()) {
-    let mut rested = Instant::now();
-    let mut darkroom = Darkroom::default();
-    while let Some(order) = waker.wait(rested) {
-        let started = Instant::now();
-        let done = darkroom.develop(&order, poll);
-        let interval = {
-            let mut inbox = waker.lock();
-            inbox.done.extend(done);
-            inbox.interval
         };
-        rested = started + (started.elapsed() * SHARE).max(interval).max(SHORTEST);
-        repaint();
+        let rest = move |took: Duration| {
+            let shortest = lock(&rests).interval.max(SHORTEST);
+            (took * (SHARE - 1)).max(shortest.saturating_sub(took))
+        };
+        let mut worker = Background::new("tone-mapper", work).with_inbox(waker.0).resting(rest);
+        worker.set_wake(repaint);
+        worker.start()?;
+        Ok(Self { wanted, worker })
+    }
+
+    /// Shows this from now on, and what is new in it at once.
+    pub fn order(&self, order: Order) {
+        let mut wanted = lock(&self.wanted);
+        if !wanted.order.is_like(&order) {
+            wanted.order = order;
+            self.worker.inbox().replace(());
+        }
+    }
+
+    /// Sets the shortest time between pictures that the window can afford.
+    pub fn set_interval(&self, interval: Duration) {
+        lock(&self.wanted).interval = interval;
+    }
+
+    /// The pictures that were not taken yet; `None` for what has nothing to show any more.
+    pub fn take(&mut self) -> BTreeMap<PictureId, Option<ViewImage>> {
+        self.worker.poll().pop().unwrap_or_default()
     }
 }
 
-/// What was developed last, so that nothing is developed twice.
+/// The sources of the last pictures, so that nothing is tone-mapped twice.
 #[derive(Default)]
-struct Darkroom {
-    pictures: BTreeMap<PictureId, (Negative, ViewDoc)>,
-    maps: Option<(Vec<Negative>, Order)>,
+struct Cache {
+    pictures: BTreeMap<PictureId, (Source, ViewDoc)>,
+    maps: Option<(Vec<Source>, Order)>,
 }
 
-/// What a picture was developed from. It is kept, so that nothing newer can lie at its place in memory.
+/// The source of a picture, kept alive so that nothing newer can have its address.
 #[derive(Clone)]
-enum Negative {
+enum Source {
     View(Arc<Snapshot>),
     Reference(Arc<Reference>),
 }
 
-impl PartialEq for Negative {
+impl PartialEq for Source {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::View(a), Self::View(b)) => Arc::ptr_eq(a, b),
@@ -250,8 +213,8 @@ impl PartialEq for Negative {
     }
 }
 
-impl Darkroom {
-    fn develop(&mut self, order: &Order, poll: &Poll) -> BTreeMap<PictureId, Option<ViewImage>> {
+impl Cache {
+    fn pictures_of(&mut self, order: &Order, poll: &Poll) -> BTreeMap<PictureId, Option<ViewImage>> {
         let views = order.views.iter().filter_map(|view| {
             let snapshot = poll(view.id)?;
             let label = label(view.number);
@@ -280,16 +243,11 @@ impl Darkroom {
                         continue;
                     };
                     let s = &view.snapshot;
-                    (
-                        Negative::View(Arc::clone(s)),
-                        [s.width, s.height],
-                        s.mean.as_slice(),
-                        Some(Arc::clone(s)),
-                    )
+                    (Source::View(Arc::clone(s)), [s.width, s.height], s.mean.as_slice(), Some(Arc::clone(s)))
                 }
                 PictureId::Reference => {
                     let Some(r) = &experiment.reference else { continue };
-                    (Negative::Reference(Arc::clone(r)), [r.width, r.height], r.mean(), None)
+                    (Source::Reference(Arc::clone(r)), [r.width, r.height], r.mean(), None)
                 }
                 PictureId::Difference => continue,
             };
@@ -302,7 +260,7 @@ impl Darkroom {
                 PictureId::Reference | PictureId::Difference => None,
             };
             let reference = experiment.reference.clone().filter(|_| *picture == PictureId::Reference);
-            let image = develop(size, pixels, display);
+            let image = tone_mapped(size, pixels, display);
             done.insert(*picture, ViewImage { image, snapshot, id, reference, map: None });
         }
         done
@@ -313,9 +271,9 @@ impl Darkroom {
             self.maps = None;
             return BTreeMap::new();
         };
-        let mut key: Vec<Negative> =
-            experiment.views.iter().map(|(_, v)| Negative::View(Arc::clone(&v.snapshot))).collect();
-        key.extend(experiment.reference.iter().cloned().map(Negative::Reference));
+        let mut key: Vec<Source> =
+            experiment.views.iter().map(|(_, v)| Source::View(Arc::clone(&v.snapshot))).collect();
+        key.extend(experiment.reference.iter().cloned().map(Source::Reference));
         if self.maps.as_ref().is_some_and(|(k, o)| *k == key && o.is_like(order)) {
             return BTreeMap::new();
         }
@@ -324,7 +282,7 @@ impl Darkroom {
             pictures_shown.iter().filter_map(|s| Some((*s, values(map, *s, experiment)?))).collect();
         let range = Range::of(map.scale, values.iter().map(|(_, (_, v))| v.as_slice()));
         let against = if map.needs_reference { against(experiment) } else { String::new() };
-        let print = |(picture, (snapshot, values)): (PictureId, (Arc<Snapshot>, Vec<f32>))| {
+        let painted = |(picture, (snapshot, values)): (PictureId, (Arc<Snapshot>, Vec<f32>))| {
             let pixels = values.iter().map(|v| {
                 let [r, g, b] = range.paint(*v);
                 Color32::from_rgb(r, g, b)
@@ -339,10 +297,10 @@ impl Darkroom {
             (picture, ViewImage { image, snapshot: Some(snapshot), id, reference: None, map })
         };
         // What has no values any more must not go on showing old ones.
-        let mut prints: BTreeMap<PictureId, Option<ViewImage>> =
+        let mut images: BTreeMap<PictureId, Option<ViewImage>> =
             pictures_shown.iter().map(|picture| (*picture, None)).collect();
-        prints.extend(values.into_iter().map(print).map(|(picture, print)| (picture, Some(print))));
-        prints
+        images.extend(values.into_iter().map(painted).map(|(picture, image)| (picture, Some(image))));
+        images
     }
 }
 
@@ -368,7 +326,7 @@ fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc
             )
         }
         PictureId::Difference => {
-            let Pair(a, b) = experiment.doc.compare.pair;
+            let Pair(a, b) = WindowDoc::of(&experiment.doc).pair;
             let snapshot = find(a)?;
             (snapshot, map.values(&Estimate::of(snapshot)?, Some(&Estimate::of(find(b)?)?)))
         }
@@ -379,7 +337,7 @@ fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc
 
 /// Applies the display transform to every pixel.
 #[must_use]
-pub fn develop(size: [usize; 2], mean: &[[f32; 3]], view: &ViewDoc) -> ColorImage {
+pub fn tone_mapped(size: [usize; 2], mean: &[[f32; 3]], view: &ViewDoc) -> ColorImage {
     let transform = DisplayTransform::new(view);
     let colour = |mean: &[f32; 3]| {
         let [r, g, b] = transform.encode(*mean);

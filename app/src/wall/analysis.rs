@@ -1,18 +1,18 @@
 //! Computes the comparison's numbers on a thread of its own, so that no frame waits for them.
 
 use super::provenance::Provenance;
+use crate::background::{Background, Reply};
+use crate::model::{Pair, WindowDoc};
 use majorant_core::compare::curve::{Point, PowerLaw};
 use majorant_core::compare::{
     Agreement, Estimate, Experiment, Opponent, Reference, Standing, View, agreement,
 };
 use majorant_core::measure::{self, Measure, Region};
-use majorant_core::scene::Pair;
+
 use majorant_core::session::{PixelSample, Probe};
 use majorant_core::transport::CancelToken;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::thread::JoinHandle;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Shortest time between two analyses.
@@ -89,92 +89,38 @@ impl Analysis {
     }
 }
 
-#[derive(Default)]
-struct Inbox {
-    question: Option<Question>,
-    closed: bool,
-    done: Option<Arc<Analysis>>,
-}
-
-/// The thread that analyses. Dropping it stops and joins it.
-pub struct AnalysisWorker {
-    desk: Arc<(Mutex<Inbox>, Condvar)>,
-    /// 0 while its paths are wanted: a single one may take for ever.
-    closed: Arc<AtomicU64>,
-    thread: Option<JoinHandle<()>>,
-}
-
-fn lock(desk: &(Mutex<Inbox>, Condvar)) -> MutexGuard<'_, Inbox> {
-    // Every change leaves the desk consistent, so a poisoned lock is still good.
-    desk.0.lock().unwrap_or_else(PoisonError::into_inner)
-}
+/// The worker that analyses the newest question.
+pub struct AnalysisWorker(Background<Question, Arc<Analysis>>);
 
 impl AnalysisWorker {
     /// Starts the thread; `repaint` wakes the window.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
-    pub fn new(repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
-        let desk = Arc::new((Mutex::new(Inbox::default()), Condvar::new()));
-        let closed = Arc::new(AtomicU64::new(0));
-        let (theirs, flag) = (Arc::clone(&desk), Arc::clone(&closed));
-        let thread = std::thread::Builder::new()
-            .name("majorant-analyst".into())
-            .spawn(move || run(&theirs, CancelToken::new(&flag, 0), &repaint))?;
-        Ok(Self { desk, closed, thread: Some(thread) })
+    pub fn new(repaint: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
+        let memory = Mutex::new(Memory::default());
+        let work = move |question: Question, reply: &Reply<'_, Question, Arc<Analysis>>| {
+            let started = Instant::now();
+            let mut memory = memory.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut analysis = memory.analyse(&question, reply.cancel());
+            analysis.seconds = started.elapsed().as_secs_f64();
+            reply.merge(Arc::new(analysis), |_, newer| newer);
+        };
+        let mut worker = Background::new("analysis", work)
+            .resting(|took| (took * (SHARE - 1)).max(SHORTEST.saturating_sub(took)));
+        worker.set_wake(repaint);
+        worker.start()?;
+        Ok(Self(worker))
     }
 
     /// Asks; the newest question counts.
     pub fn ask(&self, question: Question) {
-        lock(&self.desk).question = Some(question);
-        self.desk.1.notify_one();
+        self.0.inbox().replace(question);
     }
 
     /// The newest answer, if there is one that was not taken yet.
-    #[must_use]
-    pub fn take(&self) -> Option<Arc<Analysis>> {
-        lock(&self.desk).done.take()
-    }
-}
-
-impl Drop for AnalysisWorker {
-    fn drop(&mut self) {
-        self.closed.store(1, Ordering::Release);
-        lock(&self.desk).closed = true;
-        self.desk.1.notify_one();
-        if let Some(thread) = self.thread.take() {
-            // An analyst that panicked leaves its last numbers; there is nothing to add here.
-            let _ = thread.join();
-        }
-    }
-}
-
-fn run(desk: &(Mutex<Inbox>, Condvar), cancel: CancelToken<'_>, repaint: &dyn Fn()) {
-    let mut memory = Memory::default();
-    let mut rested = Instant::now();
-    loop {
-        let mut at = lock(desk);
-        let question = loop {
-            if at.closed {
-                return;
-            }
-            let left = rested.saturating_duration_since(Instant::now());
-            if !left.is_zero() {
-                at = desk.1.wait_timeout(at, left).unwrap_or_else(PoisonError::into_inner).0;
-                continue;
-            }
-            match at.question.take() {
-                Some(question) => break question,
-                None => at = desk.1.wait(at).unwrap_or_else(PoisonError::into_inner),
-            }
-        };
-        drop(at);
-        let started = Instant::now();
-        let mut analysis = memory.analyse(&question, cancel);
-        analysis.seconds = started.elapsed().as_secs_f64();
-        lock(desk).done = Some(Arc::new(analysis));
-        rested = started + (started.elapsed() * SHARE).max(SHORTEST);
-        repaint();
+    pub fn take(&mut self) -> Option<Arc<Analysis>> {
+        self.0.poll().pop()
     }
 }
 
@@ -231,7 +177,7 @@ impl Memory {
             curves: chosen.map(|m| self.curves(experiment, m, &opponents, &measured)).unwrap_or_default(),
             standings,
             measure: chosen,
-            pair: pair(experiment, compare.pair),
+            pair: pair(experiment, WindowDoc::of(&experiment.doc).pair),
             pixel: question.pixel.as_ref().map(|p| (p.at, self.samples(p, experiment, cancel))),
             seconds: 0.0,
         }

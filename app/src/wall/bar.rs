@@ -1,15 +1,16 @@
 //! The bar above the pictures: how many views, how they are shown, what they are held against.
 
-use super::edit::WallEdit;
 use super::state::{Tool, Wall};
-use crate::lab::{Command, Purpose};
+use crate::model::WallEdit;
+use crate::model::{Arrangement, Layer, Pair, WindowDoc};
+use crate::model::{Command, Purpose};
 use crate::theme::Palette;
 use crate::widgets::{callout, hint, key, optional_key};
 use egui::{Button, ComboBox, ProgressBar, RichText, Ui, vec2};
 use majorant_core::compare::{label, maps};
 use majorant_core::estimator::REGISTRY;
 use majorant_core::measure::MEASURES;
-use majorant_core::scene::{Arrangement, Fairness, Layer, Pair, ReferenceDoc, SceneDoc};
+use majorant_core::scene::{Fairness, ReferenceDoc, SceneDoc};
 
 /// How many views can be chosen at once.
 const COUNTS: [usize; 6] = [1, 2, 3, 4, 6, 8];
@@ -32,7 +33,7 @@ impl Wall {
             });
             if several {
                 arrangement_ui(ui, doc, commands);
-                if matches!(doc.compare.arrangement, Arrangement::Wipe | Arrangement::Difference) {
+                if matches!(WindowDoc::of(doc).arrangement, Arrangement::Wipe | Arrangement::Difference) {
                     pair_ui(ui, doc, commands);
                 }
             }
@@ -121,9 +122,10 @@ fn arrangement_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
         (Arrangement::Flip, "Flip", "Flip", "One at a time; Tab over the picture goes to the next"),
         (Arrangement::Difference, "A − B", "Difference", "What two views differ by  (D)"),
     ];
+    let current = WindowDoc::of(doc).arrangement;
     group(ui, |ui| {
         for (arrangement, text, name, tip) in options {
-            if choice(ui, doc.compare.arrangement == arrangement, text, name, tip) {
+            if choice(ui, current == arrangement, text, name, tip) {
                 commands.push(Command::Wall(WallEdit::Arrange(arrangement)));
             }
         }
@@ -132,7 +134,7 @@ fn arrangement_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
 
 /// The two views of a wipe or a difference.
 fn pair_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
-    let Pair(a, b) = doc.compare.pair;
+    let Pair(a, b) = WindowDoc::of(doc).pair;
     let mut pair = Pair(a, b);
     for (at, name, other) in [(&mut pair.0, "First view", b), (&mut pair.1, "Second view", a)] {
         let combo = ComboBox::from_id_salt(name).width(38.0).selected_text(label(*at));
@@ -147,13 +149,14 @@ fn pair_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
         });
         response.response.accessible_name(name);
     }
-    if pair != doc.compare.pair {
+    if pair != Pair(a, b) {
         commands.push(Command::Wall(WallEdit::Pair(pair)));
     }
 }
 
 fn layer_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, commands: &mut Vec<Command>) {
-    let current = doc.compare.layer.0.as_str();
+    let layer = WindowDoc::of(doc).layer;
+    let current = layer.0.as_str();
     let name = wall.map().map_or("Picture", |map| map.name);
     let combo =
         ComboBox::from_id_salt("layer").height(360.0).width(74.0).selected_text(RichText::new(name).small());

@@ -1,9 +1,9 @@
 //! The strip above every picture: which view it is, what it has cost, how far off it is, and its menu.
 
-use super::edit::WallEdit;
 use super::state::Wall;
-use crate::lab::Command;
-use crate::lab::stats::count;
+use crate::model::Command;
+use crate::model::WallEdit;
+use crate::model::stats::count;
 use crate::theme::{Palette, view_colour};
 use crate::view::tone_mapper::PictureId;
 use egui::{
@@ -135,7 +135,7 @@ pub(super) fn caption_ui(
             text(ui, RichText::new(origin).small().color(palette.weak));
         }
         PictureId::Difference => {
-            let majorant_core::scene::Pair(a, b) = doc.compare.pair;
+            let crate::model::Pair(a, b) = crate::model::WindowDoc::of(doc).pair;
             chip(ui, &label(a), view_colour(a));
             text(ui, RichText::new("minus").color(palette.weak));
             chip(ui, &label(b), view_colour(b));

@@ -1,10 +1,11 @@
 //! The pictures: side by side, over each other, one at a time, or their difference.
 
-use super::WallEdit;
 use super::caption::{self, caption_ui};
 use super::legend::{self, legend_ui};
 use super::state::{Tool, Wall};
-use crate::lab::Command;
+use crate::model::Command;
+use crate::model::WallEdit;
+use crate::model::{Arrangement, Pair, WindowDoc};
 use crate::theme::Palette;
 use crate::view::canvas::{Outcome, Shown, canvas_ui};
 use crate::view::cells_overlay;
@@ -15,7 +16,7 @@ use egui::{
 };
 use majorant_core::compare::label;
 use majorant_core::estimator;
-use majorant_core::scene::{Arrangement, Camera, CameraDoc, Pair, ReferenceDoc, SceneDoc};
+use majorant_core::scene::{Camera, CameraDoc, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
 
 /// Gap between pictures.
@@ -48,7 +49,7 @@ impl Wall {
             rect.max.y = strip.top();
         }
         let mut seen = Seen { zoom: 1.0, ..Seen::default() };
-        match doc.compare.arrangement {
+        match WindowDoc::of(doc).arrangement {
             Arrangement::Wipe if self.slots().len() > 1 => self.wipe_ui(ui, rect, doc, &mut seen, commands),
             Arrangement::Flip => {
                 let picture = pictures_shown
@@ -101,7 +102,7 @@ impl Wall {
         seen: &mut Seen,
         commands: &mut Vec<Command>,
     ) {
-        let Pair(a, b) = doc.compare.pair;
+        let Pair(a, b) = WindowDoc::of(doc).pair;
         let middle = rect.center().x;
         let top = rect.with_max_y(rect.top() + caption::HEIGHT);
         caption_ui(ui, top.with_max_x(middle - 1.0), self, PictureId::View(a), doc, commands);
@@ -232,7 +233,7 @@ impl Wall {
                 // Views that fail alike need to say so once.
                 let said =
                     self.slots().iter().take(view).any(|s| s.state.status == Status::Failed(text.clone()));
-                if !said || doc.compare.arrangement != Arrangement::Grid {
+                if !said || WindowDoc::of(doc).arrangement != Arrangement::Grid {
                     failure_ui(ui, canvas, text, uploaded.is_some());
                 }
                 return;

@@ -1,6 +1,6 @@
 //! What the tabs about single paths hold from frame to frame.
 
-use super::errand::Errand;
+use crate::background::BackgroundQuery;
 use majorant_core::estimator::Entry;
 use majorant_core::inspect::{BenchPlan, Evidence, Ledger, RayBench, Recording, Split, Strategies};
 use majorant_core::scene::CameraDoc;
@@ -42,7 +42,7 @@ pub struct Segment {
 #[derive(Default)]
 pub struct PathState {
     /// The path's recording.
-    pub errand: Errand<PathQuestion, Replayed>,
+    pub query: BackgroundQuery<PathQuestion, Replayed>,
     /// The sample that was chosen; the brightest if none was.
     pub sample: Option<u64>,
     /// Another estimator that is given the same random numbers.
@@ -81,7 +81,7 @@ pub struct PartsQuestion {
 #[derive(Default)]
 pub struct PartsState {
     /// The parts.
-    pub errand: Errand<PartsQuestion, Strategies>,
+    pub query: BackgroundQuery<PartsQuestion, Strategies>,
     /// By what.
     pub split: Split,
     /// Samples per pixel, if they were chosen.
@@ -136,7 +136,7 @@ pub struct RayQuestion {
 /// See `dock/ray`.
 pub struct RayState {
     /// The ray.
-    pub errand: Errand<RayQuestion, RayBench>,
+    pub query: BackgroundQuery<RayQuestion, RayBench>,
     /// What it leads through.
     pub through: Through,
     /// The estimator, if one was chosen.
@@ -158,7 +158,7 @@ pub struct RayState {
 impl Default for RayState {
     fn default() -> Self {
         Self {
-            errand: Errand::default(),
+            query: BackgroundQuery::default(),
             through: Through::Pixel,
             kind: None,
             lambda_nm: 550.0,
@@ -198,5 +198,5 @@ pub struct Inspector {
     /// An image taken apart.
     pub parts: PartsState,
     /// What is known about the noise. See `dock/noise`.
-    pub noise: Errand<NoiseQuestion, Evidence>,
+    pub noise: BackgroundQuery<NoiseQuestion, Evidence>,
 }

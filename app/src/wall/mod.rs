@@ -21,8 +21,6 @@ mod bar;
 mod caption;
 mod cells;
 pub mod dock;
-mod edit;
-mod errand;
 pub mod inspector;
 mod legend;
 pub mod presets;
@@ -31,7 +29,6 @@ mod reference;
 mod slot;
 mod state;
 
-pub use edit::{WallEdit, edited};
 pub use provenance::Provenance;
 pub use reference::{ReferenceId, ReferenceState};
 pub use slot::Slot;

@@ -6,8 +6,8 @@
 
 use super::analysis::Analysis;
 use super::reference::ReferenceId;
+use crate::model::Pair;
 use majorant_core::compare::{Against, Standing, label};
-use majorant_core::scene::Pair;
 
 /// Everything that numbers depend on, by identity.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! Which view of the session shows which view of the document, found by comparing documents.
 
-use crate::lab::Stats;
+use crate::model::Stats;
 use crate::model::{Work, work_after};
 use majorant_core::compare::curve::Checkpoints;
 use majorant_core::film::Snapshot;

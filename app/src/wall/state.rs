@@ -8,13 +8,14 @@ use super::analysis::{Analysis, AnalysisWorker, KEPT, PickedPixel, Question};
 use super::provenance::Provenance;
 use super::reference::{ReferenceRenders, ReferenceState};
 use super::slot::{Slot, assign};
+use crate::model::{Arrangement, Layer, WindowDoc};
 use crate::view::image_view::ImageView;
 use crate::view::tone_mapper::{Order, OrderedView, PictureId, ViewImage};
 use egui::Context;
 use majorant_core::compare::maps;
 use majorant_core::compare::{Experiment, Reference, View, label};
 use majorant_core::film::Snapshot;
-use majorant_core::scene::{Arrangement, Layer, ReferenceDoc, SceneDoc, ViewDoc};
+use majorant_core::scene::{ReferenceDoc, SceneDoc, ViewDoc};
 use majorant_core::session::{Role, Session, ViewId};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -86,7 +87,7 @@ impl Wall {
     ///
     /// # Errors
     /// When the operating system refuses a thread.
-    pub fn new(repaint: impl Fn() + Send + 'static) -> std::io::Result<Self> {
+    pub fn new(repaint: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         Ok(Self {
             slots: Vec::new(),
             next_id: 0,
@@ -261,7 +262,7 @@ impl Wall {
     /// Everything that the arrangement shows, in its order.
     #[must_use]
     pub fn pictures_shown(&self) -> Vec<PictureId> {
-        if self.doc.compare.arrangement == Arrangement::Difference && self.slots.len() > 1 {
+        if WindowDoc::of(&self.doc).arrangement == Arrangement::Difference && self.slots.len() > 1 {
             return vec![PictureId::Difference];
         }
         let mut pictures_shown: Vec<PictureId> = (0..self.slots.len()).map(PictureId::View).collect();
@@ -277,8 +278,8 @@ impl Wall {
     /// The map that is shown instead of the pictures.
     #[must_use]
     pub fn map(&self) -> Option<&'static maps::Map> {
-        let compare = &self.doc.compare;
-        match (compare.arrangement, compare.layer.0.as_str()) {
+        let window = WindowDoc::of(&self.doc);
+        match (window.arrangement, window.layer.0.as_str()) {
             // A difference is a map of its own, signed unless another was chosen.
             (Arrangement::Difference, id) if id == Layer::PICTURE => maps::find("error"),
             (_, id) => maps::find(id),
@@ -378,7 +379,7 @@ impl Wall {
     /// Pan and zoom of a sight.
     #[must_use]
     pub fn zoom_of(&self, picture: PictureId) -> ImageView {
-        match self.doc.compare.own_zoom {
+        match WindowDoc::of(&self.doc).own_zoom {
             true => self.own_zoom.get(&picture).copied().unwrap_or(self.zoom),
             false => self.zoom,
         }
@@ -386,7 +387,7 @@ impl Wall {
 
     /// Pans and zooms a sight, and with it all others unless each has a zoom of its own.
     pub fn set_zoom(&mut self, picture: PictureId, view: ImageView) {
-        if self.doc.compare.own_zoom {
+        if WindowDoc::of(&self.doc).own_zoom {
             self.own_zoom.insert(picture, view);
         } else {
             self.zoom = view;

@@ -269,7 +269,7 @@ pub fn optional_key<N: Numeric + PartialEq>(
 
 /// A row with an optional number, given with what it was when opened: a switch, and the number while it
 /// is on.
-pub fn optional<N: Numeric + PartialEq>(
+fn optional<N: Numeric + PartialEq>(
     ui: &mut Ui,
     label: &str,
     (value, opened): (&mut Option<N>, Option<N>),

@@ -1,4 +1,4 @@
-//! Scenes and settings that several benchmarks share.
+//! Scenes and settings shared by the benchmarks.
 #![allow(clippy::unwrap_used, dead_code, reason = "benchmarks may panic, and each uses a part")]
 
 use criterion::Criterion;
@@ -6,20 +6,20 @@ use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::scene::{Scene, SceneDoc, build};
 use std::time::Duration;
 
-/// The four scenes that paths are timed on.
+/// Names of the four scenes on which paths are timed.
 pub const SCENES: [&str; 4] = ["first-light", "plume-spectral", "cloud-backlit", "cloud-sidelit"];
 
-/// An embedded scene's document.
+/// Document of an embedded scene.
 pub fn doc(name: &str) -> SceneDoc {
     scene_file::parse(embedded::find(name).unwrap().toml, name).unwrap()
 }
 
-/// A document, frozen.
+/// Builds the scene of a document.
 pub fn frozen(doc: &SceneDoc) -> Scene {
     build(doc, &mut Library::default()).unwrap()
 }
 
-/// Short runs: ratios between the lines of one run are what counts.
+/// Criterion configuration with short runs, of which only ratios within one run are significant.
 pub fn config() -> Criterion {
     Criterion::default()
         .sample_size(20)

@@ -1,11 +1,11 @@
-//! Rows as columns with commas between them.
+//! CSV output of benchmark rows.
 
 use super::Row;
 
-/// A header and a line per row.
+/// Returns a header line and one line per row.
 ///
 /// # Errors
-/// Never in memory.
+/// Cannot occur when writing to memory.
 pub fn csv(rows: &[Row]) -> Result<String, ::csv::Error> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let parts = |name: &str| ["", "_lo", "_hi"].map(|end| format!("{name}{end}"));

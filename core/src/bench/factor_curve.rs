@@ -1,8 +1,9 @@
-//! What the majorant's factor costs, and what it does to noise and truth.
+//! Cost, noise and bias as functions of the majorant factor.
 //!
-//! The same small picture is made at every factor of [`FACTORS`], as independent batches. Above 1 null collisions are
-//! added: look-ups rise, noise hardly changes. Below 1 collisions exceed the majorant: weighted, the mean stays and the
-//! variance grows; clamped, the noise stays and the mean goes wrong.
+//! The same small image is rendered at every factor of [`FACTORS`], in independent batches. Above 1, null
+//! collisions are added: look-ups increase and the noise hardly changes. Below 1, the extinction exceeds the
+//! majorant: with weighting the mean is preserved and the variance grows; with clamping the noise stays the
+//! same and the mean is biased.
 
 use crate::check::{BATCHES, Batches, CheckError, Layout, Plan, own_scene};
 use crate::estimator::{self, Kernel, Settings};
@@ -10,36 +11,37 @@ use crate::io::Library;
 use crate::scene::{Scene, SceneDoc, build};
 use crate::transport::CancelToken;
 
-/// The factors of a curve.
+/// Majorant factors of a curve.
 pub const FACTORS: [f32; 10] = [0.4, 0.5, 0.63, 0.8, 1.0, 1.26, 1.6, 2.5, 4.0, 8.0];
 
-/// Paths per point, at least; twelve times as many make what the mean is held against.
+/// Minimum number of paths per point. The reference uses [`REFERENCE`] times as many.
 const PATHS: u64 = 100_000;
 const REFERENCE: u64 = 12;
 
-/// A picture at one factor.
+/// Measurements at one majorant factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorPoint {
-    /// The majorant over the largest extinction.
+    /// Majorant divided by the largest extinction.
     pub factor: f32,
-    /// Look-ups of the medium per path: what it costs.
+    /// Look-ups of the medium per path, a measure of cost.
     pub lookups_per_path: f64,
-    /// Share of look-ups at which the extinction exceeds the majorant.
+    /// Fraction of look-ups at which the extinction exceeds the majorant.
     pub exceeded: f64,
-    /// Variance of one path's contribution to the image's mean, over its square.
+    /// Variance of the contribution of one path to the image mean, divided by the squared mean.
     pub variance: f64,
-    /// The image's mean over what it should be, less one.
+    /// Relative bias: image mean divided by the reference mean, minus one.
     pub bias: f64,
-    /// Standard error of that.
+    /// Standard error of `bias`.
     pub bias_error: f64,
 }
 
-/// Measures the curve of a scene under its own estimator, point by point; `Ok(None)` if it was cancelled. The mean is
-/// held against a longer run at factor 1, which bounds, without any setting that biases; the points keep the
-/// document's own settings.
+/// Measures the curve of a scene with its own estimator, point by point. Returns `Ok(None)` if cancelled.
+///
+/// Bias is measured relative to a longer run at factor 1, where the majorant bounds the extinction, with
+/// every biased setting removed. The points keep the settings of the document.
 ///
 /// # Errors
-/// When the scene cannot be frozen.
+/// When the scene cannot be built.
 pub fn factor_curve(
     name: &str,
     doc: &SceneDoc,

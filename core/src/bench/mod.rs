@@ -1,13 +1,13 @@
-//! Equal-time benchmarks: how much certainty does a second buy?
+//! Equal-time benchmarks of estimators.
 //!
 //! ```text
 //!   Plan (scenes × entrants × repeats) ──► trials, entrants taking turns ──► Row (means, intervals)
 //! ```
 //!
-//! The figure of merit is the efficiency 1/(relMSE · CPU seconds): it does not depend on how long a run
-//! is, and doubles when the same error is reached in half the time. CPU seconds are those of all threads
-//! of the process, film included. Repeats take turns, so that a machine's moods meet every estimator alike;
-//! their scatter gives the intervals.
+//! The figure of merit is the efficiency 1/(relMSE · CPU seconds). It does not depend on the length of a run,
+//! and doubles when the same error is reached in half the time. CPU seconds include all threads of the
+//! process and the film. Repeats of the estimators are interleaved, so that changes in machine load affect
+//! all of them alike. The confidence intervals come from the scatter of the repeats.
 
 mod csv;
 mod factor_curve;

@@ -1,4 +1,4 @@
-//! What is run.
+//! Description of a benchmark: scenes, candidates, references and budget.
 
 use crate::compare::Reference;
 use crate::estimator::Entry;
@@ -6,42 +6,43 @@ use crate::io::Library;
 use crate::scene::{Bookkeeping, EstimatorDoc, SceneDoc};
 use crate::session::Budget;
 
-/// A scene to be run.
+/// A scene with the candidates that are run on it.
 #[derive(Clone, Debug)]
 pub struct Subject {
-    /// How it is called.
+    /// Display name.
     pub name: String,
     /// The scene.
     pub doc: SceneDoc,
-    /// Finds its files.
+    /// Library that locates the files of the scene.
     pub library: Library,
-    /// What is run on it, in order; ratios are relative to the first.
+    /// Candidates in order; ratios are relative to the first.
     pub entrants: Vec<Candidate>,
-    /// What errors are measured against.
+    /// Reference from which errors are measured.
     pub reference: ReferencePlan,
 }
 
 /// An estimator with its settings.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// How its row is called.
+    /// Name of its row.
     pub name: String,
     /// The estimator.
     pub entry: &'static Entry,
-    /// Its settings, in place of the scene's.
+    /// Settings that replace those of the scene.
     pub settings: EstimatorDoc,
-    /// Whether the bias of its bookkeeping is what is measured: it takes part all the same.
+    /// Whether the bias of its bookkeeping is the quantity under test; if so, it does not exclude the
+    /// candidate.
     pub own_bias: bool,
 }
 
 impl Candidate {
-    /// An estimator with a scene's own settings.
+    /// An estimator with the settings of a scene.
     #[must_use]
     pub fn of(entry: &'static Entry, doc: &SceneDoc) -> Self {
         Self { name: entry.id.to_owned(), entry, settings: doc.estimator.clone(), own_bias: false }
     }
 
-    /// Why its estimate of a scene is biased, if it is by anything but what it is there to measure.
+    /// Reason why the estimate of a scene is biased, if it is. The bias under test (`own_bias`) is ignored.
     #[must_use]
     pub fn bias(&self, doc: &SceneDoc) -> Option<&'static str> {
         let mut doc = SceneDoc { estimator: self.settings.clone(), ..doc.clone() };
@@ -52,12 +53,12 @@ impl Candidate {
     }
 }
 
-/// Where a scene's reference comes from.
+/// Source of the reference image of a scene.
 #[derive(Clone, Debug)]
 pub enum ReferencePlan {
-    /// A picture that is there already.
+    /// An existing image.
     Given(Box<Reference>),
-    /// A run of its own before the others, with independent random numbers that no trial has.
+    /// A separate run before the trials, with random numbers that no trial uses.
     Own {
         /// The estimator.
         estimator: &'static Entry,
@@ -66,15 +67,15 @@ pub enum ReferencePlan {
     },
 }
 
-/// Scenes with their entrants, and how long and how often each is run.
+/// Scenes with their candidates, the budget and the number of repeats.
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// Scenes, in order.
     pub subjects: Vec<Subject>,
-    /// Of every trial.
+    /// Budget of every trial.
     pub budget: Budget,
-    /// Trials of every entrant on its scene, at least 2.
+    /// Trials of every candidate on its scene, at least 2.
     pub repeats: u32,
-    /// Worker threads; one per core if absent.
+    /// Worker threads; `None` for one per core.
     pub threads: Option<usize>,
 }

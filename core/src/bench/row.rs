@@ -1,15 +1,15 @@
-//! What the trials of one estimator on one scene amount to.
+//! Statistics over the trials of one estimator on one scene.
 
 use crate::compare::report::words;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// One run.
+/// Measurements of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
     /// Samples per pixel.
     pub spp: u64,
-    /// Seconds from start to end.
+    /// Wall-clock seconds from start to end.
     pub wall_seconds: f64,
     /// CPU seconds of all threads.
     pub cpu_seconds: f64,
@@ -17,37 +17,37 @@ pub struct Trial {
     pub paths: u64,
     /// Look-ups of the medium.
     pub lookups: u64,
-    /// Paths without a finite value, which the film leaves out.
+    /// Paths without a finite value, which are excluded from the film.
     pub non_finite: u64,
-    /// Relative mean squared error, less what the reference's own noise adds.
+    /// Relative mean squared error, minus the expected contribution of the reference noise.
     pub relmse: f64,
 }
 
-/// A mean and where it lies with 95 % confidence.
+/// A mean with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Interval {
     /// The mean.
     pub mean: f64,
     /// Lower end.
     pub lo: f64,
-    /// Upper end; infinite if even that much is not known.
+    /// Upper end; infinite if there is no finite bound.
     pub hi: f64,
 }
 
-/// An estimator on a scene. As JSON every field is a key.
+/// Statistics of one estimator on one scene. Every field is a key of the JSON output.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// The scene.
     pub scene: String,
-    /// The estimator's id, or how it is called with its settings.
+    /// Estimator id, or the name of the candidate with its settings.
     pub estimator: String,
-    /// Runs.
+    /// Number of runs.
     pub repeats: usize,
     /// Worker threads.
     pub threads: usize,
     /// Mean samples per pixel of a run.
     pub spp: f64,
-    /// Mean seconds of a run.
+    /// Mean wall-clock seconds of a run.
     pub wall_seconds: f64,
     /// Mean CPU seconds of a run.
     pub cpu_seconds: f64,
@@ -55,26 +55,27 @@ pub struct Row {
     pub paths_per_second: f64,
     /// Look-ups per path.
     pub lookups_per_path: f64,
-    /// Share of paths without a finite value: they are left out, which biases what is left.
+    /// Fraction of paths without a finite value. They are excluded, which biases the estimate.
     pub lost: f64,
     /// Relative mean squared error of a run.
     pub relmse: Interval,
     /// 1/(relMSE · CPU seconds).
     pub efficiency: Interval,
-    /// Look-ups · relMSE: how many bring the error to 1.
+    /// Look-ups · relMSE: the number of look-ups that reduces the error to 1.
     pub lookups_to_unit_error: Interval,
     /// Efficiency relative to the first estimator.
     pub speedup: Interval,
-    /// Whether one run's error is more than half of all: rare bright paths decide, and intervals are too narrow.
+    /// Whether one run has more than half of the total error. Rare bright paths then dominate, and the
+    /// intervals are too narrow.
     pub heavy_tailed: bool,
-    /// What errors were measured against.
+    /// Origin of the reference.
     pub reference: String,
-    /// The runs themselves.
+    /// The individual runs.
     #[serde(skip)]
     pub trials: Vec<Trial>,
 }
 
-/// The half width of a 95 % interval, in standard errors of a mean of `n`.
+/// Half width of a 95 % interval, in standard errors of a mean of `n` values.
 fn quantile(n: usize) -> f64 {
     StudentsT::new(0.0, 1.0, n as f64 - 1.0).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
 }
@@ -94,13 +95,14 @@ impl Interval {
         Self { mean, lo: (mean - t * error).max(0.0), hi: mean + t * error }
     }
 
-    /// Three digits each: `0.0123 [0.0120, 0.0126]`; what has no width stands alone.
+    /// Mean and interval with three digits each: `0.0123 [0.0120, 0.0126]`. The interval is omitted if its
+    /// width is 0.
     #[must_use]
     pub fn in_words(&self) -> String {
         self.written(words::number)
     }
 
-    /// A ratio: `2.31 [2.10, 2.54]`.
+    /// Formatted as a ratio: `2.31 [2.10, 2.54]`.
     #[must_use]
     pub fn as_ratio(&self) -> String {
         self.written(words::times)
@@ -113,14 +115,14 @@ impl Interval {
         format!("{} [{}, {}]", write(self.mean), write(self.lo), write(self.hi))
     }
 
-    /// Of one over a positive quantity.
+    /// Interval of the reciprocal of a positive quantity.
     fn inverse(self) -> Self {
         Self { mean: 1.0 / self.mean, lo: 1.0 / self.hi, hi: 1.0 / self.lo }
     }
 }
 
 impl Row {
-    /// Sums up trials; `first` are those that the ratio is relative to.
+    /// Summarises trials; the speed-up is relative to `first`.
     #[must_use]
     pub fn new(
         scene: String,
@@ -160,8 +162,8 @@ impl Row {
         speedup(self.trials.iter().map(cost), other.trials.iter().map(cost))
     }
 
-    /// Paths per CPU second relative to another row of the same scene, with its 95 % interval: what a path costs,
-    /// whatever it brings.
+    /// Paths per CPU second relative to another row of the same scene, with its 95 % interval. Measures the
+    /// cost of a path independently of its variance.
     #[must_use]
     pub fn pace_over(&self, other: &Self) -> Interval {
         let seconds = |t: &Trial| t.cpu_seconds / t.paths as f64;
@@ -169,12 +171,12 @@ impl Row {
     }
 }
 
-/// Error times CPU seconds: what efficiency is one over.
+/// Error times CPU seconds, the reciprocal of the efficiency.
 fn cost(trial: &Trial) -> f64 {
     trial.relmse * trial.cpu_seconds
 }
 
-/// How many times less one costs than the other. The interval is that of the logarithm, to first order.
+/// Ratio of the mean costs, `first` over `own`. The interval is that of the logarithm, to first order.
 fn speedup(own: impl Iterator<Item = f64> + Clone, first: impl Iterator<Item = f64> + Clone) -> Interval {
     if own.clone().eq(first.clone()) {
         return Interval { mean: 1.0, lo: 1.0, hi: 1.0 };
@@ -207,12 +209,13 @@ mod tests {
         assert!((r.speedup.mean - 2.0).abs() < 1e-12 && r.speedup.lo < 2.0 && r.speedup.hi > 2.0);
         assert!((r.lookups_to_unit_error.mean - 80.0).abs() < 1e-9);
         assert_eq!((r.lookups_per_path, r.paths_per_second, r.lost), (4.0, 100.0, 0.01));
-        // Two trials that differ that much leave the error open towards zero.
+        // With so large a difference between two trials, the interval of the error includes zero.
         assert_eq!((r.relmse.lo, r.efficiency.hi), (0.0, f64::INFINITY));
         assert_eq!(row(&trials, &trials).speedup, Interval { mean: 1.0, lo: 1.0, hi: 1.0 });
         let other = [trial(0.4, 2.0), trial(0.4, 2.0)];
         assert_eq!(row(&trials, &trials).speedup_over(&row(&other, &trials)), r.speedup);
-        // Half the error in the same time is no other pace; the same error in half the time is.
+        // Half the error in the same time leaves the pace unchanged; the same error in half the time doubles
+        // it.
         let pace = |seconds: f64| row(&[0.1, 0.3].map(|e| trial(e, seconds)), &trials);
         assert_eq!(pace(2.0).pace_over(&row(&other, &trials)).mean, 1.0);
         assert_eq!(pace(1.0).pace_over(&pace(2.0)), Interval { mean: 2.0, lo: 2.0, hi: 2.0 });
@@ -227,7 +230,7 @@ mod tests {
         let held = |which: fn(&Row) -> (Interval, f64)| {
             let holds = |run: &u64| {
                 let mut random = Sampler::new(11, *run, 0);
-                // A sum of a few exponentials of mean 1: skewed, as errors are.
+                // A sum of a few exponentials of mean 1, skewed as errors are.
                 let mut error =
                     || (0..24).map(|_| f64::from(random.next_optical_depth())).sum::<f64>() / 24.0;
                 let own: Vec<_> = (0..6).map(|_| trial(error(), 1.0)).collect();

@@ -1,4 +1,4 @@
-//! Runs a plan.
+//! Execution of a benchmark plan.
 
 use super::{Candidate, Plan, ReferencePlan, Row, Subject, Trial};
 use crate::compare::{Reference, unfit_document};
@@ -11,83 +11,83 @@ use crate::session::{Batch, Budget, Probe, render};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::Arc;
 
-/// Why a benchmark came to no end.
+/// Reason why a benchmark failed.
 #[derive(Debug, thiserror::Error)]
 pub enum BenchError {
-    /// A scene could not be frozen.
+    /// A scene could not be built.
     #[error("{scene}: {source}")]
     Scene {
-        /// Which.
+        /// Name of the scene.
         scene: String,
-        /// What is wrong.
+        /// Cause.
         source: SceneError,
     },
-    /// An unbiased benchmark of a biased picture means nothing.
-    #[error("{scene}: {reason}: its error does not fall with time. Switch that off to measure speed.")]
+    /// Every candidate is biased, so that its error does not fall with time.
+    #[error("{scene}: {reason}; its error does not fall with time. Disable this setting to measure speed.")]
     Biased {
-        /// Which.
+        /// Name of the scene.
         scene: String,
-        /// What biases it.
+        /// Source of the bias.
         reason: &'static str,
     },
-    /// The reference has random numbers of a trial: what they have in common looks like accuracy.
+    /// The reference shares random numbers with a trial; the correlation would look like accuracy.
     #[error(
-        "{scene}: the reference was rendered with seed {seed}, which is also a trial's: set render.seed to {free} or more"
+        "{scene}: the reference was rendered with seed {seed}, which a trial uses as well: set render.seed to {free} or more"
     )]
     SameSeed {
-        /// Which.
+        /// Name of the scene.
         scene: String,
-        /// The seed.
+        /// Seed of the reference.
         seed: u64,
-        /// The least seed of the scene with which no trial has it.
+        /// Smallest scene seed for which no trial uses the seed of the reference.
         free: u64,
     },
-    /// The reference is biased, or its noise cannot be told.
-    #[error("{scene}: the reference cannot be one: {reason}")]
+    /// The reference is biased, or its noise is not known.
+    #[error("{scene}: the reference cannot be used: {reason}")]
     UnfitReference {
-        /// Which.
+        /// Name of the scene.
         scene: String,
-        /// What is wrong with it.
+        /// Reason why it is unsuitable.
         reason: &'static str,
     },
-    /// The reference is of another size.
+    /// The reference has a different size.
     #[error("{scene}: {source}")]
     Reference {
-        /// Which.
+        /// Name of the scene.
         scene: String,
-        /// What does not fit.
+        /// Mismatch.
         source: MeasureError,
     },
-    /// Less than two runs have no scatter.
+    /// Fewer than two runs have no scatter.
     #[error("{0} repeats have no scatter: run at least 2")]
     TooFew(u32),
     /// The operating system refused threads.
     #[error("{threads} worker threads could not be started: {reason}. Ask for fewer with --threads.")]
     Threads {
-        /// How many.
+        /// Number of threads.
         threads: usize,
-        /// What it said.
+        /// Error of the operating system.
         reason: String,
     },
 }
 
-/// How far a benchmark is.
+/// Progress of a benchmark.
 #[derive(Clone, Debug)]
 pub struct Progress<'a> {
-    /// Runs that are done, references included.
+    /// Completed runs, references included.
     pub done: usize,
-    /// Of so many.
+    /// Total number of runs.
     pub of: usize,
-    /// What comes next.
+    /// Description of the next run.
     pub next: String,
-    /// Rows of the scene that has just been finished.
+    /// Rows of the scene that has just been completed.
     pub rows: &'a [Row],
 }
 
-/// Runs the entrants of every scene. Rows come scene by scene.
+/// Runs the candidates of every scene. Returns the rows scene by scene.
 ///
 /// # Errors
-/// When a scene cannot be frozen, is biased on purpose, or a reference does not fit.
+/// When a scene cannot be built, when every candidate is biased, or when a reference does not fit.
 pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>, BenchError> {
     if plan.repeats < 2 {
         return Err(BenchError::TooFew(plan.repeats));
@@ -103,7 +103,7 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
     let mut rows = Vec::new();
     let mut done = 0;
     for subject in &plan.subjects {
-        // What is biased on a scene has no efficiency there: its error does not fall with time.
+        // A candidate that is biased on a scene has no efficiency there: its error does not fall with time.
         let unbiased = subject.entrants.iter().filter(|entrant| entrant.bias(&subject.doc).is_none());
         let entrants: Vec<&Candidate> = unbiased.collect();
         let runner = Runner::new(subject, &entrants, &pool)?;
@@ -152,14 +152,14 @@ impl<'a> Runner<'a> {
         frozen.map(Arc::new).map_err(|source| BenchError::Scene { scene: subject.name.clone(), source })
     }
 
-    /// A run under a seed of its own.
+    /// One run with the given seed.
     fn batch(&self, entry: &Entry, settings: &EstimatorDoc, seed: u64, budget: Budget) -> Batch {
         let settings = estimator::Settings::new(settings, seed);
         let probe = Probe::new(Arc::clone(&self.scene), entry.kernel, settings);
         render(&probe, self.pool, budget)
     }
 
-    /// A picture that is there already, unless it is a trial's own or says that it is biased.
+    /// Checks an existing reference: it must be unbiased and have a seed that no trial uses.
     fn given(&self, reference: &Reference, repeats: u32) -> Result<Reference, BenchError> {
         let (scene, first) = (self.subject.name.clone(), self.subject.doc.render.seed);
         if let Some(reason) = reference.unfit {
@@ -223,7 +223,8 @@ impl<'a> Runner<'a> {
     }
 }
 
-/// What a reference of its own renders: nothing in it biases, and its error bars are exact.
+/// Document that a separate reference run renders: without biased settings, and with independent samples so
+/// that the standard error is exact.
 fn reference_doc(doc: &SceneDoc, estimator: &Entry) -> SceneDoc {
     let mut doc = doc.unbiased();
     estimator.id.clone_into(&mut doc.estimator.id);
@@ -231,9 +232,9 @@ fn reference_doc(doc: &SceneDoc, estimator: &Entry) -> SceneDoc {
     doc
 }
 
-/// relMSE without the reference's share.
+/// relMSE without the contribution of the reference noise.
 fn relmse(picture: &Picture, reference: &Reference) -> Result<f64, MeasureError> {
-    let against = measure::Reference {
+    let against = measure::ReferencePicture {
         picture: Picture { width: reference.width, height: reference.height, pixels: reference.mean() },
         standard_error: reference.standard_error(),
     };

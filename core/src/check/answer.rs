@@ -1,39 +1,39 @@
-//! What a case's image should be.
+//! Expected value of the image of a case.
 
 use super::Layout;
 
-/// A known mean with the standard error that it is known with.
+/// A mean with its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
     /// The mean.
     pub mean: f64,
-    /// Its standard error: of quadrature, or of the renderer that made it.
+    /// Standard error, of the quadrature or of the renderer that computed the value.
     pub error: f64,
 }
 
-/// What a case's image should be.
+/// Expected image of a case.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// A closed form, quadrature, or another renderer's picture: one value per block and channel.
+    /// A closed form, quadrature, or the image of another renderer: one value per block and channel.
     Known(Vec<Value>),
-    /// Nobody knows: the estimators are held against each other, pair by pair.
+    /// No known value: the estimators are compared with each other, pair by pair.
     Agreement,
 }
 
 impl Answer {
-    /// Exact values, the same colour in every block.
+    /// Exact values with the same colour in every block.
     #[must_use]
     pub fn uniform(colour: [f64; 3], layout: Layout) -> Self {
         Self::blocks(&vec![colour; layout.blocks()])
     }
 
-    /// Exact values, block by block.
+    /// Exact values of each block.
     #[must_use]
     pub fn blocks(colours: &[[f64; 3]]) -> Self {
         Self::Known(colours.iter().flatten().map(|mean| Value { mean: *mean, error: 0.0 }).collect())
     }
 
-    /// The same values, known with a relative standard error only.
+    /// Adds a relative standard error to the known values.
     #[must_use]
     pub fn within(self, relative: f64) -> Self {
         match self {
@@ -47,7 +47,7 @@ impl Answer {
         }
     }
 
-    /// Mean over all blocks and channels, of independent values.
+    /// Mean over all blocks and channels, which are treated as independent. `None` without known values.
     #[must_use]
     pub fn whole(&self) -> Option<Value> {
         let Self::Known(values) = self else { return None };

@@ -1,4 +1,4 @@
-//! Independent repeats of a render, as means over blocks of pixels.
+//! Independent repeats of a render, reduced to means over blocks of pixels.
 
 use super::stats::mean_and_error;
 use crate::estimator::{Kernel, PathIndex, Settings};
@@ -8,18 +8,18 @@ use crate::scene::Scene;
 use crate::transport::CancelToken;
 use rayon::prelude::*;
 
-/// Independent repeats of every render.
+/// Number of independent repeats of every render.
 pub const BATCHES: usize = 128;
 
-/// Degrees of freedom of a batch mean's standard error.
+/// Degrees of freedom of the standard error of a batch mean.
 pub const DOF: f64 = (BATCHES - 1) as f64;
 
-/// How an image is divided into blocks.
+/// Division of an image into blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
-    /// Blocks side by side.
+    /// Number of blocks in a row.
     pub columns: u32,
-    /// Blocks one above the other.
+    /// Number of blocks in a column.
     pub rows: u32,
 }
 
@@ -27,33 +27,33 @@ impl Layout {
     /// The image as one block.
     pub const WHOLE: Self = Self { columns: 1, rows: 1 };
 
-    /// Blocks of an image.
+    /// Total number of blocks.
     #[must_use]
     pub fn blocks(&self) -> usize {
         self.columns as usize * self.rows as usize
     }
 
-    /// Comparisons that an image amounts to: every block and channel, and the mean over all.
+    /// Number of comparisons of an image: every block and channel, and the overall mean.
     #[must_use]
     pub fn comparisons(&self) -> usize {
         3 * self.blocks() + 1
     }
 
-    /// The block that a pixel of an image of `size` belongs to.
+    /// Index of the block that contains a pixel of an image of `size`.
     fn block(&self, (x, y): (u32, u32), size: (u32, u32)) -> usize {
         let (column, row) = (x * self.columns / size.0, y * self.rows / size.1);
         row as usize * self.columns as usize + column as usize
     }
 }
 
-/// What to render, [`BATCHES`] times.
+/// Parameters of a render that is repeated [`BATCHES`] times.
 #[derive(Clone, Copy)]
 pub struct Plan<'a> {
-    /// The frozen scene.
+    /// The scene.
     pub scene: &'a Scene,
-    /// The estimator.
+    /// Kernel of the estimator.
     pub kernel: Kernel,
-    /// Its settings, seed included.
+    /// Settings of the estimator, seed included.
     pub settings: &'a Settings,
     /// Blocks of the image.
     pub layout: Layout,
@@ -63,26 +63,26 @@ pub struct Plan<'a> {
     pub spp: u64,
 }
 
-/// Batch means of every block and channel of an image, and of the whole.
+/// Batch means of every block and channel of an image, and of the whole image.
 #[derive(Clone, Debug)]
 pub struct Batches {
-    /// One series of [`BATCHES`] means per block and channel (block by block from the top left, channels
-    /// in turn), and last the mean over all blocks and channels.
+    /// One series of [`BATCHES`] means per block and channel (block by block from the top left, with channels
+    /// innermost), followed by the mean over all blocks and channels.
     pub series: Vec<Vec<f64>>,
     /// Samples per pixel of every batch.
     pub spp: u64,
     /// Paths traced.
     pub paths: u64,
-    /// Density look-ups.
+    /// Look-ups of the medium.
     pub lookups: u64,
     /// Look-ups at which the extinction exceeded the majorant.
     pub exceeded: u64,
-    /// The first sample that was not finite, if any; such samples are left out.
+    /// First non-finite sample, if any; such samples are excluded.
     pub non_finite: Option<NonFinite>,
 }
 
 impl Batches {
-    /// Renders; `None` if it was cancelled.
+    /// Renders the batches; `None` if cancelled.
     #[must_use]
     pub fn render(plan: &Plan<'_>, cancel: CancelToken<'_>) -> Option<Self> {
         let batches: Option<Vec<Batch>> =
@@ -99,7 +99,7 @@ impl Batches {
         })
     }
 
-    /// The same batches with more samples.
+    /// Merges further samples into the batches.
     #[must_use]
     pub fn merged(mut self, more: &Self) -> Self {
         let share = more.spp as f64 / (self.spp + more.spp) as f64;
@@ -114,7 +114,7 @@ impl Batches {
         self
     }
 
-    /// Paths that a series is made of.
+    /// Number of paths that contribute to a series.
     #[must_use]
     pub fn paths_of(&self, series: usize) -> u64 {
         let blocks = (self.series.len() / 3).max(1) as u64;
@@ -142,7 +142,7 @@ fn batch(plan: &Plan<'_>, index: u64, cancel: CancelToken<'_>) -> Option<Batch> 
     let mut counts = vec![0u64; plan.layout.blocks()];
     let mut done = Batch { means: Vec::new(), paths: 0, lookups: 0, exceeded: 0, non_finite: None };
     let first = plan.first_sample + index * plan.spp;
-    // Samples of one sequence hang together; batches must not.
+    // Samples of one low-discrepancy sequence are correlated, but batches must be independent.
     let mut settings = *plan.settings;
     if settings.sampler != SamplerKind::Independent {
         settings.seed = settings.seed.wrapping_add((index + 1) << 32);
@@ -165,7 +165,7 @@ fn batch(plan: &Plan<'_>, index: u64, cancel: CancelToken<'_>) -> Option<Batch> 
                     *sum += f64::from(value);
                 }
             }
-            // The estimate of an unwanted path is meaningless.
+            // The estimate of a cancelled path is meaningless.
             if !cancel.is_active() {
                 return None;
             }

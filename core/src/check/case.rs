@@ -1,34 +1,35 @@
-//! A scene with its answer, and families of them.
+//! Validation cases and families of cases.
 
 use super::{Answer, CheckError, Layout};
 use crate::estimator::{Entry, REGISTRY};
 use crate::io::{Library, scene_file};
 use crate::scene::{Mode, Scene, SceneDoc, build};
 
-/// A scene with a derived answer.
+/// A scene with its expected image.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// Stable name, `family/what`.
     pub name: String,
-    /// The scene; its estimator's id is replaced in turn by every id of the registry.
+    /// The scene; every estimator of `registry` is run on it in turn.
     pub doc: SceneDoc,
     /// Blocks in which the image is compared.
     pub layout: Layout,
-    /// What the image should be.
+    /// Expected image.
     pub answer: Answer,
-    /// Where the scene's files come from.
+    /// Source of the scene's files.
     pub library: Library,
-    /// The estimators to choose from.
+    /// Candidate estimators.
     pub registry: &'static [Entry],
-    /// The most paths of one estimator, where some are too inefficient for the power that is wished for.
+    /// Maximum number of paths per estimator, for cases where some are too inefficient for the requested
+    /// power.
     pub budget: Option<u64>,
 }
 
 impl Case {
-    /// A case in one block whose scene needs no files but embedded ones.
+    /// Creates a case with one block and embedded files only.
     ///
     /// # Errors
-    /// When the scene file is not one.
+    /// When the scene file cannot be parsed.
     pub fn new(name: impl Into<String>, toml: &str, answer: Answer) -> Result<Self, CheckError> {
         let name = name.into();
         let doc = scene_file::parse(toml, &name)?;
@@ -43,35 +44,35 @@ impl Case {
         })
     }
 
-    /// The same with other blocks.
+    /// Replaces the division into blocks.
     #[must_use]
     pub fn in_blocks(mut self, columns: u32, rows: u32) -> Self {
         self.layout = Layout { columns, rows };
         self
     }
 
-    /// The same with files from here.
+    /// Replaces the library that supplies files.
     #[must_use]
     pub fn with_files(mut self, library: Library) -> Self {
         self.library = library;
         self
     }
 
-    /// The same with this answer.
+    /// Replaces the expected image.
     #[must_use]
     pub fn answered(mut self, answer: Answer) -> Self {
         self.answer = answer;
         self
     }
 
-    /// The same for some of the estimators only.
+    /// Restricts the estimators.
     #[must_use]
     pub fn among(mut self, registry: &'static [Entry]) -> Self {
         self.registry = registry;
         self
     }
 
-    /// The same after an edit, under another name.
+    /// Returns an edited copy under another name.
     #[must_use]
     pub fn varied(&self, name: impl Into<String>, edit: impl FnOnce(&mut SceneDoc)) -> Self {
         let mut varied = Self { name: name.into(), ..self.clone() };
@@ -79,13 +80,13 @@ impl Case {
         varied
     }
 
-    /// Spectral or RGB.
+    /// Spectral or RGB mode of the scene.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.doc.estimator.mode
     }
 
-    /// The estimators that are unbiased for it.
+    /// Estimators that are unbiased on this case and have finite variance.
     #[must_use]
     pub fn estimators(&self) -> Vec<&'static Entry> {
         let can_be_judged =
@@ -93,36 +94,36 @@ impl Case {
         self.registry.iter().filter(can_be_judged).collect()
     }
 
-    /// Comparisons that it amounts to over all its estimators.
+    /// Number of comparisons over all estimators.
     #[must_use]
     pub fn comparisons(&self) -> usize {
         let n = self.estimators().len();
         match self.answer {
             Answer::Known(_) => n * self.layout.comparisons(),
-            // Every pair, and every one against all others together.
+            // Every pair, and every estimator against the pooled others.
             Answer::Agreement => n * n.saturating_sub(1) / 2 * self.layout.comparisons() + n,
         }
     }
 
-    /// The frozen scene.
+    /// Builds the scene.
     ///
     /// # Errors
-    /// When the scene makes no sense or names files that cannot be used.
+    /// When the scene is invalid or names files that cannot be used.
     pub fn scene(&self) -> Result<Scene, CheckError> {
         build(&self.doc, &mut self.library.clone())
             .map_err(|source| CheckError::Build { name: self.name.clone(), source })
     }
 }
 
-/// Cases that share a derivation.
+/// Cases that share a derivation of the expected image.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// What the names of its cases begin with.
+    /// Prefix of the names of its cases.
     pub id: &'static str,
-    /// One sentence: what is known, and why.
+    /// One sentence that states what is known, and why.
     pub about: &'static str,
-    /// Whether it is left to a thorough look, for its cost.
+    /// Whether it is part of deep checks only, because of its cost.
     pub deep_only: bool,
-    /// Makes the cases; answers are evaluated here.
+    /// Creates the cases and evaluates their expected images.
     pub cases: fn() -> Result<Vec<Case>, CheckError>,
 }

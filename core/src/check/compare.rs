@@ -1,4 +1,4 @@
-//! From batch means to lines of the table.
+//! Comparison of batch means with expected values and with each other.
 
 use super::batches::DOF;
 use super::report::{Row, Verdict};
@@ -6,8 +6,7 @@ use super::stats::{mean_and_error, power_t};
 use super::{Answer, Batches, Case, Value};
 use crate::estimator::Entry;
 
-/// Relative error that single precision may leave in a mean, by which even an estimate without noise
-/// may be off.
+/// Relative rounding error of single precision in a mean, which applies even to an estimate without noise.
 const ROUNDING: f64 = 5e-5;
 
 /// A difference of two values with its standard error.
@@ -25,7 +24,7 @@ impl Comparison {
     }
 
     fn z(&self) -> f64 {
-        // Exactly nothing seen and exactly nothing expected is no surprise.
+        // Equal values agree even if their error is 0.
         if self.difference == 0.0 { 0.0 } else { self.difference / self.error.max(f64::MIN_POSITIVE) }
     }
 }
@@ -38,27 +37,27 @@ fn values(image: &Batches) -> Vec<Value> {
     image.series.iter().enumerate().map(value).collect()
 }
 
-/// What a series that never changes may hide: events that occur less than three times in as many paths are missed
-/// one time in twenty, and may each matter as much as everything that was seen.
+/// Upper bound on events missed by a constant series: events that occur less often than three times in its
+/// number of paths are missed with a probability of 5 %, and each may contribute as much as the whole mean.
 fn unseen(series: &[f64], paths: u64) -> f64 {
     let (mean, _) = mean_and_error(series);
     if is_constant(series) { 3.0 * mean.abs() / paths.max(1) as f64 } else { 0.0 }
 }
 
-/// Whether batch means differ by no more than rounding.
+/// Whether batch means differ by rounding only.
 fn is_constant(series: &[f64]) -> bool {
     let (mean, error) = mean_and_error(series);
     error * (series.len() as f64).sqrt() <= ROUNDING * mean.abs()
 }
 
-/// The largest skewness of a series of batch means whose t-test can be trusted in its far tails. Of 128
-/// Gaussian means it is 0 ± 0.22; beyond 1, rare paths of great weight decide, and what was missed of them
-/// shows nowhere.
+/// Largest skewness of a series of batch means for which the far tails of the t-test are reliable. For 128
+/// Gaussian means the skewness is 0 ± 0.22; beyond 1, rare paths of large weight dominate, and the scatter
+/// does not reveal how many were missed.
 const LARGEST_SKEWNESS: f64 = 1.0;
 
-/// Whether a series of batch means knows its own noise: a path that brings light is no rarity in it, and its
-/// scatter has no long tail. Otherwise the scatter of what was seen tells nothing of what was missed, and a
-/// block is judged as part of the whole.
+/// Whether the scatter of a series of batch means is a reliable noise estimate: most batches have a
+/// contribution, and their distribution has no long tail. Otherwise the observed scatter does not reveal
+/// missed contributions, and a block is tested as part of the whole only.
 pub(super) fn knows_its_noise(series: &[f64]) -> bool {
     let n = series.len() as f64;
     let seen = series.iter().filter(|mean| **mean != 0.0).count();
@@ -69,10 +68,10 @@ pub(super) fn knows_its_noise(series: &[f64]) -> bool {
         && (is_constant(series) || moment(3).abs() <= LARGEST_SKEWNESS * deviation.powi(3))
 }
 
-/// Beyond this detectable bias an image is too noisy for a verdict.
+/// Relative detectable bias beyond which an image is too noisy for a verdict.
 const TOO_NOISY: f64 = 0.25;
 
-/// The relative bias of the whole image's mean that would be found with the stated power.
+/// Relative bias of the image mean that would be detected with probability [`super::stats::POWER`].
 fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
     let Some(Value { mean, error }) = values(image).pop() else { return f64::INFINITY };
     if !image.series.last().is_some_and(|s| knows_its_noise(s)) {
@@ -82,7 +81,7 @@ fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
     (critical + power_t(DOF)) * whole.error / expected.mean.abs()
 }
 
-/// The z of every pair of values, the last being that of the whole image.
+/// z of every pair of values; the last is that of the whole image.
 fn all_z(image: &Batches, other: Option<&Batches>, a: &[Value], b: &[Value]) -> Vec<f64> {
     let known = |image: &Batches, i: usize| image.series.get(i).is_some_and(|s| knows_its_noise(s));
     (a.iter().zip(b).enumerate())
@@ -92,7 +91,7 @@ fn all_z(image: &Batches, other: Option<&Batches>, a: &[Value], b: &[Value]) -> 
 }
 
 fn worst(z: &[f64]) -> f64 {
-    // What is not a number is no agreement.
+    // NaN counts as a difference.
     z.iter().map(|z| if z.is_nan() { f64::INFINITY } else { z.abs() }).fold(0.0, f64::max)
 }
 
@@ -129,7 +128,7 @@ fn row(
     }
 }
 
-/// Holds an image against a known answer.
+/// Compares an image with a known answer.
 pub(super) fn against_known(
     case: &Case,
     entry: &Entry,
@@ -142,8 +141,8 @@ pub(super) fn against_known(
     expected.push(whole);
     let measured = values(image);
     let mut worst_z = worst(&all_z(image, None, &measured, &expected));
-    // A case is made so that its noise can be known. If it is not, as when all of the image is black, then that
-    // is wrong as well, but for estimators that have a budget because they rarely meet the light.
+    // A case is designed so that its noise can be estimated. If it cannot, as for a black image, the image
+    // fails as well, except for estimators with a budget because they rarely hit a light.
     if let (Some(mine), None) = (measured.last(), case.budget) {
         worst_z = worst(&[worst_z, Comparison::new(*mine, whole).z()]);
     }
@@ -152,7 +151,7 @@ pub(super) fn against_known(
     row(case, entry, image, whole, (worst_z, critical), from)
 }
 
-/// Holds images of different estimators against each other. Those too noisy to be judged judge nobody.
+/// Compares images of different estimators. Images that are too noisy are not used in comparisons.
 pub(super) fn pairwise(case: &Case, images: &[(&'static Entry, Batches)], critical: f64) -> Vec<Row> {
     let all: Vec<Vec<Value>> = images.iter().map(|(_, image)| values(image)).collect();
     let pool = |except: usize| {
@@ -180,7 +179,7 @@ pub(super) fn pairwise(case: &Case, images: &[(&'static Entry, Batches)], critic
         if judged(i) {
             let whole = all[i].last().map_or(0.0, |mine| Comparison::new(*mine, expected[i]).z().abs());
             worst_z = worst_z.max(whole);
-            // A bias too small to be seen against any one of them may be seen against all.
+            // A bias too small to be detected against any single estimator may be detected against all.
             if differs_from.is_empty() && whole > critical {
                 differs_from.push("the others together".to_owned());
             }
@@ -190,11 +189,11 @@ pub(super) fn pairwise(case: &Case, images: &[(&'static Entry, Batches)], critic
     rows
 }
 
-/// The mean of independent values by inverse variance; an estimate alone has nothing to be held against.
+/// Mean of independent values, weighted by inverse variance; NaN without values.
 fn pooled<'a>(values: impl Iterator<Item = &'a Value>) -> Value {
     let (mut weights, mut sum) = (0.0, 0.0);
     for v in values {
-        // An estimate without noise counts as one with the noise of its rounding.
+        // An estimate without noise has the error of its rounding.
         let error = v.error.hypot(ROUNDING * v.mean).max(f64::MIN_POSITIVE.sqrt());
         weights += 1.0 / (error * error);
         sum += v.mean / (error * error);

@@ -1,28 +1,28 @@
-//! Why a check could not be made.
+//! Errors of a check.
 
 use crate::io::scene_file::SceneFileError;
 use crate::scene::SceneError;
 
-/// Why a check could not be made.
+/// Reason why a check could not be run.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckError {
     /// A scene could not be read.
     #[error(transparent)]
     Scene(#[from] SceneFileError),
-    /// A scene could not be frozen.
+    /// A scene could not be built.
     #[error("{name}: {source}")]
     Build {
-        /// The case.
+        /// Name of the case.
         name: String,
-        /// What happened.
+        /// Cause.
         source: SceneError,
     },
     /// A reference that is part of the program is damaged.
     #[error("{name}: the reference is damaged: {reason}; build the program again")]
     Reference {
-        /// The case.
+        /// Name of the case.
         name: String,
-        /// What happened.
+        /// Cause.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! Whether the program is true: estimators against answers that are known.
+//! Validation of the estimators against known answers.
 //!
 //! ```text
 //!   FAMILIES ──► Case (scene + answer) ─┐
@@ -6,14 +6,14 @@
 //!   estimator::REGISTRY ────────────────┘
 //! ```
 //!
-//! A [`Case`] is a scene with a derived answer; the derivation stands at the head of its family's file
-//! in `cases/`. Answers are evaluated in double precision and share no code with the renderer. Every
-//! estimator of the registry runs on every case that it is unbiased for. Where nobody knows the answer,
-//! a person's own scene among them, the estimators are held against each other, pair by pair.
+//! A [`Case`] is a scene with a derived answer; the derivation is at the head of its family's file in
+//! `cases/`. Answers are evaluated in double precision and share no code with the renderer. Every estimator
+//! of the registry runs on every case for which it is unbiased. Where no answer is known, as for a user's own
+//! scene, the estimators are compared with each other, pair by pair.
 //!
 //! The statistics are those of [`stats`]: t-tests on independent batch means of pixel blocks, Šidák's
-//! correction over all comparisons of a run, and a stated power: for every row the relative bias of the
-//! image's mean that would have been found with 95 % probability.
+//! correction over all comparisons of a run, and a stated power: every row gives the relative bias of the
+//! image mean that would have been detected with 95 % probability.
 
 mod answer;
 mod batches;

@@ -1,15 +1,15 @@
-//! A person's own scene as a case: nobody knows the answer, so the estimators are held against each other.
+//! A user's own scene as a case. No answer is known, so that the estimators are compared with each other.
 
 use super::{Answer, Case, Layout};
 use crate::estimator::REGISTRY;
 use crate::io::Library;
 use crate::scene::SceneDoc;
 
-/// The longer side of the image that is compared, in pixels: a bias of the estimator shows in small
-/// pictures as well as in large ones, and sooner.
+/// Longer side of the compared image in pixels: a bias shows in small images as well as in large ones, and in
+/// less time.
 const LONGER_SIDE: u32 = 24;
 
-/// A scene of whose answer nothing is known, in blocks of an image that is small enough to be quick.
+/// Creates a case without a known answer from a scene, with a small image so that it is quick.
 #[must_use]
 pub fn own_scene(name: impl Into<String>, doc: &SceneDoc, library: Library) -> Case {
     let mut doc = doc.clone();

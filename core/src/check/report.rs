@@ -1,24 +1,24 @@
-//! What a check has found.
+//! Results of a check.
 
 use crate::film::NonFinite;
 use crate::scene::Mode;
 use serde::Serialize;
 use std::fmt;
 
-/// How one estimator fares on one case.
+/// Result of one estimator on one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "verdict", rename_all = "kebab-case")]
 pub enum Verdict {
-    /// All comparisons are within what chance allows.
+    /// All differences are within statistical error.
     Agrees,
-    /// The image is too noisy to tell: a bias of a quarter could hide in it, or rare paths decide.
+    /// The image is too noisy for a verdict: a bias of a quarter could be hidden, or rare paths dominate.
     Undecided,
-    /// At least one is not.
+    /// At least one difference is significant.
     Differs {
-        /// From whom: the answer, or the ids of other estimators.
+        /// Expected answer, or ids of other estimators, from which it differs.
         from: Vec<String>,
     },
-    /// A sample was not a finite number.
+    /// A sample was not finite.
     NotFinite {
         /// Column.
         x: u32,
@@ -46,71 +46,70 @@ impl From<NonFinite> for Verdict {
     }
 }
 
-/// One line of the table: scene × estimator.
+/// One line of the table: a scene and an estimator.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The case.
+    /// Name of the case.
     pub scene: String,
-    /// The estimator's id.
+    /// Estimator id.
     pub estimator: &'static str,
-    /// Spectral or RGB.
+    /// Spectral or RGB mode.
     pub mode: Mode,
     /// Mean over the image and its channels.
     pub measured: f64,
-    /// Its standard error.
+    /// Standard error of `measured`.
     pub error: f64,
-    /// What it should be; among estimators that can only be held against each other, the pooled mean of
-    /// the others, by inverse variance.
+    /// Expected mean; without a known answer, the mean of the other estimators, weighted by inverse variance.
     pub expected: f64,
     /// (measured − expected) / standard error of the difference.
     pub z: f64,
-    /// The largest |z| of any block and channel, or against any other estimator.
+    /// Largest |z| of any block and channel, or against any other estimator.
     pub worst_z: f64,
-    /// The |z| that chance exceeds anywhere in the whole run with probability [`super::stats::ALPHA`].
+    /// The |z| that is exceeded by chance anywhere in the whole run with probability [`super::stats::ALPHA`].
     pub critical_z: f64,
-    /// Relative bias of the mean that would have been found with 95 % probability.
+    /// Relative bias of the mean that would have been detected with 95 % probability.
     pub detectable: f64,
     /// Paths traced.
     pub paths: u64,
-    /// What comes of it.
+    /// Verdict.
     #[serde(flatten)]
     pub verdict: Verdict,
 }
 
 impl Row {
-    /// Whether nothing is wrong.
+    /// Whether no difference was found.
     #[must_use]
     pub fn passes(&self) -> bool {
         matches!(self.verdict, Verdict::Agrees | Verdict::Undecided)
     }
 }
 
-/// The whole table.
+/// The complete table.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Report {
-    /// Scene by scene, estimators in the order of the registry.
+    /// Rows by scene, with estimators in the order of the registry.
     pub rows: Vec<Row>,
-    /// What was left out, and why.
+    /// Skipped cases with the reason.
     pub notes: Vec<String>,
-    /// Seconds that it took.
+    /// Duration in seconds.
     pub seconds: f64,
 }
 
 impl Report {
-    /// Whether nothing is wrong with any row.
+    /// Whether no row fails.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.rows.iter().all(Row::passes)
     }
 
-    /// How many rows agree, and of how many nothing can be said.
+    /// Number of rows that agree, and number that are undecided.
     #[must_use]
     pub fn agreeing_and_undecided(&self) -> (usize, usize) {
         let count = |v: &Verdict| self.rows.iter().filter(|row| row.verdict == *v).count();
         (count(&Verdict::Agrees), count(&Verdict::Undecided))
     }
 
-    /// The rows that something is wrong with.
+    /// Rows that fail.
     pub fn failures(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| !row.passes())
     }

@@ -1,4 +1,4 @@
-//! Runs cases: as many samples as the power that was asked for needs, then the comparisons.
+//! Execution of cases: rendering to the requested power, then comparison.
 
 use super::batches::{BATCHES, DOF, Plan};
 use super::report::{Report, Row};
@@ -9,25 +9,26 @@ use crate::scene::Scene;
 use crate::transport::CancelToken;
 use std::time::Instant;
 
-/// How hard to look.
+/// Power and cost limits of a check.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
-    /// The relative bias of an image's mean that has to be found with 95 % probability.
+    /// Relative bias of an image mean that has to be detected with 95 % probability.
     pub detect: f64,
-    /// The most paths of one estimator on one case.
+    /// Maximum number of paths of one estimator on one case.
     pub max_paths: u64,
-    /// The most seconds of one estimator on one case; leaves the number of samples to the machine.
+    /// Maximum seconds of one estimator on one case. The number of samples then depends on the speed of the
+    /// machine.
     pub seconds: Option<f64>,
 }
 
 impl Effort {
-    /// Finds a bias of 3 %.
+    /// Detects a bias of 3 %.
     pub const QUICK: Self = Self { detect: 0.03, max_paths: 6_000_000, seconds: None };
-    /// Finds a bias of 1 %.
+    /// Detects a bias of 1 %.
     pub const DEEP: Self = Self { detect: 0.01, max_paths: 400_000_000, seconds: None };
 
-    /// For people's own scenes, whose cost nobody knows: at most 45 seconds for `images` images of them, or
-    /// ten minutes for a deep look.
+    /// Effort for a user's own scenes, whose cost is unknown: at most 45 seconds for `images` images, or ten
+    /// minutes for a deep check.
     #[must_use]
     pub fn own_scenes(deep: bool, images: usize) -> Self {
         let (effort, seconds) = if deep { (Self::DEEP, 600.0) } else { (Self::QUICK, 45.0) };
@@ -35,42 +36,42 @@ impl Effort {
     }
 }
 
-/// Cases to be run as one family of comparisons.
+/// Cases that are run as one family of comparisons.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// The cases.
+    /// Cases to run.
     pub cases: Vec<Case>,
-    /// How hard to look.
+    /// Power and cost limits.
     pub effort: Effort,
 }
 
-/// How far a check has come.
+/// Progress of a check.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress<'a> {
-    /// Images made so far, one per case and estimator.
+    /// Completed images, one per case and estimator.
     pub done: usize,
-    /// Images in all.
+    /// Total number of images.
     pub total: usize,
-    /// The case at hand.
+    /// Current case.
     pub scene: &'a str,
-    /// The estimator at hand.
+    /// Current estimator.
     pub estimator: &'static str,
-    /// Lines of the table that are new.
+    /// New rows of the table.
     pub rows: &'a [Row],
 }
 
-/// Paths of the first look at an estimator's noise.
+/// Paths of the pilot run that estimates the noise.
 const PILOT_PATHS: u64 = 16_384;
-/// An image that still does not know its noise after as many paths will hardly ever.
+/// Number of paths after which an image without a reliable noise estimate gets no further samples for it.
 const BLIND_PATHS: u64 = 8_000_000;
-/// Aims this much below the bias that has to be found: the noise is known roughly only.
+/// Factor on the bias to be detected, since the noise is known only approximately.
 const MARGIN: f64 = 0.95;
 
 impl Check {
-    /// Runs every case under every estimator that is unbiased for it; `Ok(None)` if it was cancelled.
+    /// Runs every case with every estimator that is unbiased on it. Returns `Ok(None)` if cancelled.
     ///
     /// # Errors
-    /// When a scene cannot be frozen.
+    /// When a scene cannot be built.
     pub fn run(
         &self,
         cancel: CancelToken<'_>,
@@ -85,7 +86,8 @@ impl Check {
             let scene = case.scene()?;
             let estimators = case.estimators();
             if estimators.is_empty() {
-                let why = case.registry.iter().find_map(|e| e.bias(&case.doc)).unwrap_or("there are none");
+                let why =
+                    case.registry.iter().find_map(|e| e.bias(&case.doc)).unwrap_or("the registry is empty");
                 report.notes.push(format!("{}: no estimator is unbiased for it: {why}.", case.name));
             }
             let mut images = Vec::new();
@@ -114,8 +116,8 @@ impl Check {
         Ok(Some(report))
     }
 
-    /// Renders as much as the power needs. After Stein (1945): a first look tells the noise and with it
-    /// how many samples that is; they are drawn afresh, so that the look does not bias what it decides on.
+    /// Renders as many samples as the power requires. After Stein (1945): a pilot run estimates the noise and
+    /// from it the number of samples. They are drawn afresh, so that the pilot does not bias the result.
     fn measure(
         &self,
         case: &Case,
@@ -139,13 +141,13 @@ impl Check {
         let pilot = Batches::render(&plan, cancel)?;
         let per_spp = began.elapsed().as_secs_f64() / pilot_spp as f64;
 
-        // Where nobody knows the answer, the others that it is held against have noise as well.
+        // Without a known answer, the other estimators of the comparison are noisy as well.
         let others = (case.estimators().len() as f64 - 1.0).max(1.0);
         let share = if matches!(case.answer, Answer::Agreement) { 1.0 + 1.0 / others } else { 1.0 };
         let needed = |image: &Batches| {
             let (mean, error) = image.whole();
             let found = (critical + power_t(DOF)) * error / mean.abs().max(f64::MIN_POSITIVE);
-            // More paths make a long tail shorter.
+            // More paths shorten a long tail.
             let blind = !image.series.last().is_some_and(|s| compare::knows_its_noise(s));
             let least = if blind { (4 * image.spp).min(BLIND_PATHS / per_sample) as f64 } else { 0.0 };
             (share * (found / (self.effort.detect * MARGIN)).powi(2) * image.spp as f64).ceil().max(least)
@@ -157,7 +159,7 @@ impl Check {
         let mut first_sample = BATCHES as u64 * pilot_spp;
         loop {
             let have = image.as_ref().map_or(0, |i| i.spp);
-            // The noise is known the better the more there is of it; rare events may still raise it.
+            // The noise estimate improves with more samples; rare events may still increase it.
             let wish = needed(image.as_ref().unwrap_or(&pilot)).min(most).max(1.0) as u64;
             match image.take() {
                 Some(image) if wish <= have => return Some(image),
@@ -172,8 +174,8 @@ impl Check {
     }
 }
 
-/// Random numbers of its own for every case and estimator, whatever their places in the registries: images
-/// that are compared must be independent. FNV-1a over both names.
+/// Independent random numbers for every case and estimator, whatever their positions in the registries, since
+/// compared images must be independent. FNV-1a over both names.
 fn seed(base: u64, case: &str, estimator: &str) -> u64 {
     let names = case.bytes().chain([0]).chain(estimator.bytes());
     names.fold(0xcbf2_9ce4_8422_2325 ^ base, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0000_0100_0000_01b3))

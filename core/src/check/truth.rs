@@ -1,11 +1,11 @@
-//! Closed forms in double precision, written from their definitions and sharing no code with the
-//! renderer: what the renderer gets wrong, this does not repeat.
+//! Closed forms in double precision, written from their definitions. They share no code with the renderer, so
+//! that they do not repeat its errors.
 
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// What a spectral image shows of radiance L(λ): ∫ L(λ) response(λ) dλ in linear sRGB, the response made
-/// of the CIE 1931 curves, each scaled to integral 1, and of the primaries of IEC 61966-2-1. Published matrices
+/// Film value of a spectral radiance L(λ): ∫ L(λ) response(λ) dλ in linear sRGB. The response consists of the
+/// CIE 1931 curves, each scaled to integral 1, and of the primaries of IEC 61966-2-1. Published matrices
 /// round the white point differently, by up to 3·10⁻⁴ in blue.
 pub(super) fn film(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     let xyz = colour_matching();
@@ -24,7 +24,7 @@ pub(super) fn film(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     rgb_from_xyz(std::array::from_fn(|c| sums[c] / totals[c]))
 }
 
-/// The colour of constant radiance 1.
+/// Colour of constant radiance 1.
 pub(super) fn white() -> [f64; 3] {
     film(|_| 1.0)
 }
@@ -50,8 +50,8 @@ fn colour_matching() -> Curves {
     Curves(rows.collect())
 }
 
-/// Linear sRGB from XYZ, from the chromaticities of the primaries and of D65: RGB (1, 1, 1) is the
-/// white point, each primary has its chromaticity.
+/// Linear sRGB from XYZ, derived from the chromaticities of the primaries and of D65: RGB (1, 1, 1) is the
+/// white point, and each primary has its chromaticity.
 fn rgb_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     let of = |x: f64, y: f64| DVec3::new(x / y, 1.0, (1.0 - x - y) / y);
     let primaries = glam::DMat3::from_cols(of(0.64, 0.33), of(0.30, 0.60), of(0.15, 0.06));
@@ -60,7 +60,7 @@ fn rgb_from_xyz(xyz: [f64; 3]) -> [f64; 3] {
     (xyz_from_rgb.inverse() * DVec3::from(xyz)).to_array()
 }
 
-/// A spectrum given by points, linear between them; beyond the ends it holds them.
+/// A spectrum given by points, linear between them and constant beyond the ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Points(pub &'static [(f64, f64)]);
 
@@ -74,25 +74,25 @@ impl Points {
         }
     }
 
-    /// As a scene file writes it.
+    /// The points in the notation of a scene file.
     pub fn toml(&self) -> String {
         let points: Vec<_> = self.0.iter().map(|(l, v)| format!("{l}:{v}")).collect();
         format!("\"{}\"", points.join(", "))
     }
 }
 
-/// Henyey–Greenstein by the cosine between the directions of propagation, per steradian.
+/// Henyey–Greenstein phase function of the cosine between the directions of propagation, per steradian.
 pub(super) fn henyey_greenstein(g: f64, cosine: f64) -> f64 {
     (1.0 - g * g) / (4.0 * PI * (1.0 + g * g - 2.0 * g * cosine).powf(1.5))
 }
 
-/// Draine, per steradian.
+/// Draine phase function, per steradian.
 pub(super) fn draine(g: f64, alpha: f64, cosine: f64) -> f64 {
     let moment = (1.0 + 2.0 * g * g) / 3.0;
     henyey_greenstein(g, cosine) * (1.0 + alpha * cosine * cosine) / (1.0 + alpha * moment)
 }
 
-/// Jendersie and d'Eon's lobes for droplets of 5 to 50 µm, per steradian.
+/// Jendersie and d'Eon's phase function for droplets of 5 to 50 µm, per steradian.
 pub(super) fn droplets(d: f64, cosine: f64) -> f64 {
     let g_hg = (-0.0990567 / (d - 1.67154)).exp();
     let g_d = (-2.20679 / (d + 3.91029) - 0.428934).exp();
@@ -101,12 +101,12 @@ pub(super) fn droplets(d: f64, cosine: f64) -> f64 {
     (1.0 - w) * henyey_greenstein(g_hg, cosine) + w * draine(g_d, alpha, cosine)
 }
 
-/// Rayleigh, per steradian.
+/// Rayleigh phase function, per steradian.
 pub(super) fn rayleigh(cosine: f64) -> f64 {
     3.0 / (16.0 * PI) * (1.0 + cosine * cosine)
 }
 
-/// Where a line crosses an axis-aligned box of half size `half` about `center`: the interval of t.
+/// Interval of t in which a line is inside an axis-aligned box of half size `half` about `center`.
 pub(super) fn box_interval(
     origin: DVec3,
     direction: DVec3,
@@ -129,8 +129,8 @@ pub(super) fn box_interval(
     (t0 < t1).then_some((t0, t1))
 }
 
-/// ∫ f over the unit interval by Gauss's two-point rule in each of `cells` equal parts: an error of fourth
-/// order where f is smooth, and no harm where it has kinks.
+/// ∫ f over the unit interval by Gauss's two-point rule in each of `cells` equal parts. The error is of
+/// fourth order where f is smooth; kinks are harmless.
 pub(super) fn integrate(cells: u32, mut f: impl FnMut(f64) -> f64) -> f64 {
     let width = 1.0 / f64::from(cells);
     let off = 0.5 / 3f64.sqrt();
@@ -159,17 +159,17 @@ pub(super) fn over_cap(axis: DVec3, half_angle: f64, cells: u32, mut f: impl FnM
         })
 }
 
-/// A grid of values, trilinear between: the lattice's own definition, index by index.
+/// A grid of values with trilinear interpolation, implemented index by index from the definition.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice3 {
     /// Values per axis.
     pub size: [usize; 3],
-    /// x fastest.
+    /// Values, x fastest.
     pub values: Vec<f32>,
 }
 
 impl Lattice3 {
-    /// At continuous index coordinates, indices beyond the ends replaced by what `beyond` says.
+    /// Value at continuous index coordinates; `beyond` maps the indices beyond the ends.
     pub fn at(&self, index: DVec3, beyond: impl Fn(i64, i64) -> Option<i64>) -> f64 {
         let floor = index.floor();
         let f = index - floor;

@@ -1,17 +1,18 @@
-//! Do two pictures show the same image? A verdict from their noise alone.
+//! Statistical test of whether two images estimate the same expectation, from their noise alone.
 //!
-//! The region is divided into blocks; each block's mean is compared per channel, and the mean of the whole
-//! in grey and per channel, by
+//! The region is divided into blocks. The mean of each block is compared per channel, and the mean of the
+//! whole region in grey and per channel, by
 //!
 //! ```text
 //!   z = (A − B) / √(Var A + Var B)
 //! ```
 //!
-//! under Student's t with the degrees of freedom that the variances' own errors leave (Welch–Satterthwaite,
-//! ν = 2 V²/Var V). The smallest of n probabilities is corrected by Šidák, p = 1 − (1 − p_min)ⁿ. Where rare
-//! bright paths decide, the scatter of what was seen tells nothing of what was missed: a skewed whole is not
-//! judged at all, and it is divided into no more blocks than would each be free of skewness if the rare paths
-//! were spread evenly, since a block that has met none of them looks quiet.
+//! with Student's t and the degrees of freedom that follow from the errors of the variances
+//! (Welch–Satterthwaite, ν = 2 V²/Var V). The smallest of n probabilities is corrected by Šidák,
+//! p = 1 − (1 − p_min)ⁿ. Where rare bright paths dominate, the observed scatter does not reveal how many were
+//! missed. A region with a skewed mean is therefore not tested, and a region is divided only into as many
+//! blocks as would each have low skewness if the rare paths were spread evenly, since a block without such a
+//! path underestimates its noise.
 
 use super::estimate::{Estimate, RegionNoise};
 use crate::check::stats::two_sided_p;
@@ -19,33 +20,33 @@ use crate::measure::Region;
 use serde::Serialize;
 use std::fmt;
 
-/// False alarms per comparison. A live verdict is looked at again and again, which multiplies them by a few.
+/// Probability of a false alarm per comparison. Repeated tests of a live view multiply it by a small factor.
 pub const ALPHA: f64 = 1e-5;
 
-/// The largest skewness of a mean whose t-test can be trusted: at 0.1 the far tail is already several times as
-/// heavy as stated, and single channels are more skewed than their grey.
+/// Largest skewness of a mean for which the t-test is reliable: at 0.1 the far tail is already several times
+/// heavier than stated, and single channels are more skewed than their grey.
 const LARGEST_SKEWNESS: f64 = 0.02;
 
-/// Beyond this detectable relative bias a region is too noisy for a verdict.
+/// Relative detectable bias beyond which a region is too noisy for a verdict.
 const TOO_NOISY: f64 = 0.25;
 
-/// Relative error that single precision may leave in a mean.
+/// Relative rounding error of single precision in a mean.
 const ROUNDING: f64 = 5e-5;
 
-/// Blocks side by side and one above the other, at most.
+/// Maximum number of blocks in a row and in a column.
 const BLOCKS: usize = 8;
-/// The least edge of a block in pixels.
+/// Minimum edge of a block in pixels.
 const SMALLEST_BLOCK: usize = 8;
 
-/// Whether two pictures agree.
+/// Result of the comparison of two images.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Every difference is within what chance allows.
+    /// Every difference is within statistical error.
     Agrees,
-    /// At least one is not.
+    /// At least one difference is significant.
     Differs,
-    /// Too noisy to tell: a bias of a quarter could hide, or rare bright paths decide.
+    /// Too noisy for a verdict: a bias of a quarter could be hidden, or rare bright paths dominate.
     Undecided,
 }
 
@@ -59,39 +60,39 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// The block that differs most.
+/// The block with the most significant difference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst {
-    /// Its pixels.
+    /// Pixels of the block.
     pub region: Region,
-    /// Its relative difference, (A − B)/B, in the channel that differs most.
+    /// Relative difference, (A − B)/B, in the most significant channel.
     pub difference: f64,
-    /// Standard error of that.
+    /// Standard error of `difference`.
     pub error: f64,
-    /// Its z.
+    /// z of the difference.
     pub z: f64,
 }
 
-/// What the comparison of A with B has found.
+/// Result of the comparison of A with B.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
     /// The verdict.
     pub verdict: Verdict,
     /// Relative difference of the means over the region, (A − B)/B.
     pub difference: f64,
-    /// Standard error of that.
+    /// Standard error of `difference`.
     pub error: f64,
     /// z of the means over the region.
     pub z: f64,
-    /// The probability that chance alone makes some block differ as much, corrected for their number.
+    /// Probability that some block differs as much by chance, corrected for the number of blocks.
     pub p: f64,
-    /// The block that differs most, if any was judged.
+    /// The block with the most significant difference, if any was tested.
     pub worst: Option<Worst>,
-    /// Pixels that were left out because a value in them is not finite.
+    /// Pixels that are excluded because of a non-finite value.
     pub excluded: u64,
 }
 
-/// Compares A with B over a region. `None` if they differ in size or the region holds no pixel.
+/// Compares A with B over a region. Returns `None` if they differ in size or the region contains no pixel.
 #[must_use]
 pub fn agreement(a: &Estimate<'_>, b: &Estimate<'_>, region: Region) -> Option<Agreement> {
     let (width, height) = (a.picture.width, a.picture.height);
@@ -99,7 +100,7 @@ pub fn agreement(a: &Estimate<'_>, b: &Estimate<'_>, region: Region) -> Option<A
     if (width, height) != (b.picture.width, b.picture.height) || region.is_empty() {
         return None;
     }
-    // Both means are over the same pixels: those with a value in both.
+    // Both means are over the same pixels: those with finite values in both images.
     let usable = |e: &Estimate<'_>, i: usize| {
         let finite = |values: &[[f32; 3]]| values.get(i).is_some_and(|v| v.iter().all(|x| x.is_finite()));
         finite(e.picture.pixels) && e.standard_error.is_none_or(finite)
@@ -124,7 +125,7 @@ pub fn agreement(a: &Estimate<'_>, b: &Estimate<'_>, region: Region) -> Option<A
     let verdict = match judged {
         false => Verdict::Undecided,
         true if p < ALPHA => Verdict::Differs,
-        // Only agreement needs the power to have seen a difference.
+        // Agreement requires enough power to have detected a difference; a difference does not.
         true if detectable > TOO_NOISY => Verdict::Undecided,
         true => Verdict::Agrees,
     };
@@ -144,14 +145,14 @@ pub fn agreement(a: &Estimate<'_>, b: &Estimate<'_>, region: Region) -> Option<A
     })
 }
 
-/// Blocks that a region's noise can be divided into: the skewness of a mean grows with the square root of their
-/// number.
+/// Number of blocks into which the noise of a region can be divided: the skewness of a mean increases with
+/// the square root of this number.
 fn most_blocks((a, b): &(RegionNoise, RegionNoise)) -> f64 {
     let skewness = a.skewness().abs().max(b.skewness().abs());
     (LARGEST_SKEWNESS / skewness).powi(2)
 }
 
-/// At most so many blocks of about equal size that cover a region; none if it is one.
+/// Divides a region into at most `most` blocks of about equal size; empty if one block would result.
 fn divide(region: Region, most: f64) -> impl Iterator<Item = Region> {
     let (width, height) = (region.x1 - region.x0, region.y1 - region.y0);
     let most = (most.sqrt() as usize).clamp(1, BLOCKS);
@@ -168,7 +169,8 @@ fn divide(region: Region, most: f64) -> impl Iterator<Item = Region> {
     })
 }
 
-/// Whether a mean's noise is known: seen at all, and without a long tail.
+/// Whether the noise of a mean is known: contributions were observed, and their distribution has no long
+/// tail.
 fn known(noise: &RegionNoise) -> bool {
     let seen = noise.average_variance() > 0.0 || noise.grey() != 0.0;
     seen && noise.skewness().abs() <= LARGEST_SKEWNESS
@@ -201,14 +203,14 @@ impl Comparison {
     }
 }
 
-/// The comparisons that a block, or the whole, amounts to; none if its noise is not known.
+/// Comparisons of a block, or of the whole region; empty if the noise is not known.
 fn comparisons((a, b): &(RegionNoise, RegionNoise), region: Region, grey: bool) -> Vec<Comparison> {
     if !known(a) || !known(b) {
         return Vec::new();
     }
     let variance = a.average_variance() + b.average_variance();
     let spread = a.variance_of_variance + b.variance_of_variance;
-    // Beyond a million degrees Student's t is normal to more digits than anybody reads.
+    // Beyond a million degrees of freedom Student's t is indistinguishable from a normal distribution.
     let dof = if spread > 0.0 { (2.0 * variance * variance / spread).clamp(1.0, 1e6) } else { 1e6 };
     let mut all: Vec<_> = (0..3)
         .map(|c| Comparison::new(a.mean[c], b.mean[c], a.variance[c] + b.variance[c]).judged(region, dof))
@@ -227,7 +229,7 @@ mod tests {
     use crate::math::Sampler;
     use crate::measure::Picture;
 
-    /// Pictures of exponential noise of mean 1, by seed, with `edit` applied to every sample.
+    /// Images of exponential noise of mean 1, by seed, with `edit` applied to every sample.
     fn picture(seed: u64, size: usize, spp: u64, edit: impl Fn(usize, f32) -> f32) -> Images {
         let mut film = Film::new(size, size);
         for (i, pixel) in film.pixels.iter_mut().enumerate() {
@@ -263,19 +265,20 @@ mod tests {
                 found.p
             })
             .collect();
-        // Šidák's p over 40 seeds: its mean is 1/2 ± 0.046, and blocks of a picture depend a little.
+        // Šidák's p over 40 seeds: its mean is 1/2 ± 0.046, and the blocks of an image are slightly
+        // dependent.
         let mean = p.iter().sum::<f64>() / p.len() as f64;
         assert!((0.3..0.7).contains(&mean), "{p:?}");
     }
 
     #[test]
-    fn a_bias_is_found_and_its_size_is_told() {
+    fn a_bias_is_found_with_its_size() {
         let size = 64;
         let brighter = picture(2, size, 64, |_, x| 1.02 * x);
         let found = compare(&brighter, &picture(1, size, 64, |_, x| x), size);
         assert_eq!(found.verdict, Verdict::Differs);
         assert!((found.difference - 0.02).abs() < 4.0 * found.error, "{found:?}");
-        // One block alone, whose excess the rest makes up for.
+        // A bias in one block that is compensated by the others.
         let place = |i: usize| (i % size < 8) && (i / size < 8);
         let moved = picture(3, size, 64, |i, x| if place(i) { 1.3 * x } else { 0.995_238 * x });
         let found = compare(&moved, &picture(1, size, 64, |_, x| x), size);
@@ -284,19 +287,19 @@ mod tests {
         assert!(found.z.abs() < 4.0, "{found:?}");
     }
 
-    /// Half of the light comes by rare paths; blocks that have met none of them look quiet and too dark.
+    /// Half of the light comes from rare paths; blocks without any of them underestimate noise and radiance.
     #[test]
-    fn what_was_missed_is_not_taken_for_a_bias() {
+    fn missed_rare_paths_are_not_taken_for_a_bias() {
         let size = 32;
         let rare = |share: f32| {
             move |_: usize, x: f32| if x > -share.ln() { 0.5 / share } else { 0.5 / (1.0 - share) }
         };
         for seed in 0..20 {
             let other = picture(1000 + seed, size, 64, |_, x| x);
-            // 3 in a block of 8 × 8 pixels with 16 samples: many blocks have none.
+            // 3 in a block of 8 × 8 pixels with 16 samples, so that many blocks have none.
             let found = compare(&picture(seed, size, 16, rare(3.0 / 1024.0)), &other, size);
             assert_ne!(found.verdict, Verdict::Differs, "{found:?}");
-            // A hundred in each of the few blocks that are judged.
+            // A hundred in each of the few blocks that are tested.
             let found = compare(&picture(seed, size, 16, rare(0.1)), &other, size);
             assert_eq!(found.verdict, Verdict::Agrees, "{found:?}");
         }
@@ -310,7 +313,7 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Undecided, "{found:?}");
         let black = picture(5, size, 8, |_, _| 0.0);
         assert_eq!(compare(&black, &picture(6, size, 8, |_, x| x), size).verdict, Verdict::Undecided);
-        // Nothing at all against nothing at all.
+        // Two black images.
         assert_eq!(compare(&black, &black, size).verdict, Verdict::Undecided);
     }
 }

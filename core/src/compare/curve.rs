@@ -1,11 +1,11 @@
-//! Error against samples, seconds or look-ups, and the line through it.
+//! Error curves over samples, seconds or look-ups, and fitted power laws.
 
 use super::reference::Reference;
 use crate::film::Snapshot;
 use crate::measure::{self, Measure, Picture, Region};
 use std::sync::Arc;
 
-/// What a curve runs along.
+/// Horizontal axis of an error curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// Samples per pixel.
@@ -18,10 +18,10 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// Every axis, in the order that pickers show.
+    /// All axes, in display order.
     pub const ALL: [Self; 3] = [Self::Samples, Self::Seconds, Self::Lookups];
 
-    /// Its name with its unit.
+    /// Name with its unit.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -32,7 +32,7 @@ impl Axis {
     }
 }
 
-/// An early picture of a view, kept so that its error can be measured against whatever comes later.
+/// An early image of a view, kept so that its error can be measured against later references.
 #[derive(Clone, Debug)]
 pub struct Checkpoint {
     /// Samples per pixel.
@@ -47,7 +47,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Keeps a view's picture.
+    /// Keeps the image of a view.
     #[must_use]
     pub fn of(snapshot: &Snapshot) -> Self {
         let pixels = (snapshot.width * snapshot.height).max(1) as f64;
@@ -61,7 +61,7 @@ impl Checkpoint {
         }
     }
 
-    /// Where it stands on an axis.
+    /// Position on an axis.
     #[must_use]
     pub fn at(&self, axis: Axis) -> f64 {
         match axis {
@@ -71,11 +71,11 @@ impl Checkpoint {
         }
     }
 
-    /// Its error in a region. `None` if the reference has another size.
+    /// Error in a region. `None` if the reference has a different size.
     #[must_use]
     pub fn point(&self, measure: &Measure, reference: &Reference, region: Option<Region>) -> Option<Point> {
         let picture = Picture { width: self.width, height: self.height, pixels: &self.mean };
-        let held = measure::Reference {
+        let held = measure::ReferencePicture {
             picture: reference.estimate().picture,
             standard_error: reference.standard_error(),
         };
@@ -89,7 +89,8 @@ impl Checkpoint {
     }
 }
 
-/// The growing series of a view's checkpoints: each has [`Checkpoints::RATIO`] times the samples of the last.
+/// Checkpoints of a view in geometric progression: each has at least [`Checkpoints::RATIO`] times the samples
+/// of its predecessor.
 #[derive(Clone, Debug, Default)]
 pub struct Checkpoints {
     generation: u64,
@@ -97,10 +98,10 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Samples of a checkpoint over those of the one before it, at least.
+    /// Minimum ratio of the samples of successive checkpoints.
     pub const RATIO: f64 = 1.5;
 
-    /// Keeps a picture if it is far enough from the last; a new generation starts over.
+    /// Keeps an image if it is due; a new generation starts over.
     pub fn observe(&mut self, snapshot: &Snapshot) {
         if snapshot.generation != self.generation {
             *self = Self { generation: snapshot.generation, kept: Vec::new() };
@@ -111,13 +112,13 @@ impl Checkpoints {
         }
     }
 
-    /// From the first to the newest.
+    /// Checkpoints from the first to the newest.
     #[must_use]
     pub fn kept(&self) -> &[Arc<Checkpoint>] {
         &self.kept
     }
 
-    /// Which submission they belong to.
+    /// Generation that they belong to.
     #[must_use]
     pub fn generation(&self) -> u64 {
         self.generation
@@ -129,14 +130,14 @@ impl Checkpoints {
 pub struct Point {
     /// Samples, seconds and look-ups, in the order of [`Axis::ALL`].
     pub along: [f64; 3],
-    /// The error, without what the reference's noise adds to it.
+    /// Error, corrected for the noise of the reference.
     pub value: f64,
-    /// Its standard error.
+    /// Standard error of `value`.
     pub error: f64,
 }
 
 impl Point {
-    /// Where it stands on an axis.
+    /// Position on an axis.
     #[must_use]
     pub fn at(&self, axis: Axis) -> f64 {
         self.along[axis as usize]
@@ -150,12 +151,12 @@ pub struct PowerLaw {
     pub slope: f64,
     /// Standard error of the slope; infinite for two points.
     pub slope_error: f64,
-    /// The value at 1.
+    /// Value at 1.
     pub factor: f64,
 }
 
 impl PowerLaw {
-    /// Least squares in the logarithms; `None` below two usable points.
+    /// Fits by least squares in the logarithms; `None` with fewer than two usable points.
     #[must_use]
     pub fn fit(points: &[Point], axis: Axis) -> Option<Self> {
         let logs: Vec<(f64, f64)> = points
@@ -176,7 +177,7 @@ impl PowerLaw {
         Some(Self { slope, slope_error, factor: (my - slope * mx).exp() })
     }
 
-    /// The value somewhere.
+    /// Value at a position.
     #[must_use]
     pub fn at(&self, along: f64) -> f64 {
         self.factor * along.powf(self.slope)

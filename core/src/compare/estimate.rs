@@ -1,22 +1,22 @@
-//! A picture with what is known of its noise, wherever it comes from.
+//! An image with its noise statistics, independent of its source.
 
 use crate::film::{Noise, Snapshot};
 use crate::measure::{Picture, Region};
 
-/// An estimate of an image: means, and how far they can be trusted.
+/// An estimate of an image: means and their uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate<'a> {
     /// Mean linear sRGB.
     pub picture: Picture<'a>,
-    /// Standard error of every mean; absent: taken as exact.
+    /// Standard error of every mean; `None` if the means are treated as exact.
     pub standard_error: Option<&'a [[f32; 3]]>,
-    /// Skewness of the noise and how well its size is known; absent: taken as normal and known.
+    /// Skewness of the noise and uncertainty of its variance; `None` if treated as normal and known.
     pub noise: Option<&'a [Noise]>,
 }
 
 impl<'a> Estimate<'a> {
-    /// A view's picture; none while it is coarse or has fewer than three samples per pixel, which say
-    /// nothing about their noise.
+    /// The image of a view; `None` while it is a coarse preview or has fewer than three samples per pixel,
+    /// which give no noise estimate.
     #[must_use]
     pub fn of(snapshot: &'a Snapshot) -> Option<Self> {
         let known = snapshot.spp >= 3 && snapshot.noise.len() == snapshot.mean.len();
@@ -28,26 +28,26 @@ impl<'a> Estimate<'a> {
     }
 }
 
-/// Sums over the pixels of a region and what they say about its mean. All variances are those of the
-/// region's mean; pixels are independent.
+/// Moments of the mean over a region, from sums over its pixels. All variances are those of the region mean;
+/// pixels are independent.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RegionNoise {
-    /// Pixels that count.
+    /// Number of pixels included.
     pub pixels: u64,
     /// Mean of R, G, B.
     pub mean: [f64; 3],
-    /// Variance of that mean per channel.
+    /// Variance of that mean, per channel.
     pub variance: [f64; 3],
-    /// Variance of the mean's grey, (R+G+B)/3.
+    /// Variance of the grey mean, (R+G+B)/3.
     pub grey_variance: f64,
-    /// Third central moment of the mean's grey.
+    /// Third central moment of the grey mean.
     pub third_moment: f64,
-    /// Variance of the mean over channels of `variance`, as an estimate.
+    /// Variance of the estimated variance, for the mean of `variance` over channels.
     pub variance_of_variance: f64,
 }
 
 impl RegionNoise {
-    /// The sums over the pixels of a region for which `counts` holds and whose values are finite.
+    /// Sums over the finite pixels of a region for which `counts` returns true.
     #[must_use]
     pub fn of(estimate: &Estimate<'_>, region: Region, counts: impl Fn(usize) -> bool) -> Self {
         let width = estimate.picture.width;
@@ -80,12 +80,12 @@ impl RegionNoise {
                 self.third_moment += f64::from(noise.third_moment);
                 self.variance_of_variance += f64::from(noise.variance_error).powi(2);
             }
-            // Channels of an unknown dependence: as if they moved together, the most that grey can have.
+            // The correlation of the channels is unknown: full correlation gives the largest grey variance.
             None => self.grey_variance += average,
         }
     }
 
-    /// From sums over pixels to moments of their mean.
+    /// Converts sums over pixels to moments of their mean.
     fn averaged(mut self) -> Self {
         let n = self.pixels.max(1) as f64;
         self.mean = self.mean.map(|m| m / n);
@@ -102,7 +102,7 @@ impl RegionNoise {
         self.mean.iter().sum::<f64>() / 3.0
     }
 
-    /// Skewness of the mean's grey; 0 without noise.
+    /// Skewness of the grey mean; 0 without noise.
     #[must_use]
     pub fn skewness(&self) -> f64 {
         if self.grey_variance > 0.0 { self.third_moment / self.grey_variance.powf(1.5) } else { 0.0 }
@@ -114,14 +114,14 @@ impl RegionNoise {
         self.variance.iter().sum::<f64>() / 3.0
     }
 
-    /// Variance of a pixel's mean, averaged over pixels and channels, with its standard error.
+    /// Variance of the mean of a pixel, averaged over pixels and channels, with its standard error.
     #[must_use]
     pub fn pixel_variance(&self) -> (f64, f64) {
         let n = self.pixels as f64;
         (self.average_variance() * n, self.variance_of_variance.sqrt() * n)
     }
 
-    /// The part of [`Self::pixel_variance`] that is perpendicular to grey: colour noise.
+    /// Component of [`Self::pixel_variance`] perpendicular to grey: colour noise.
     #[must_use]
     pub fn pixel_chroma_variance(&self) -> f64 {
         ((self.average_variance() - self.grey_variance) * self.pixels as f64).max(0.0)

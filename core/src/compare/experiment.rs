@@ -1,4 +1,4 @@
-//! A comparison with everything that came of it so far: what rankings, maps and reports are made from.
+//! A comparison with its current images, the input of rankings, maps and reports.
 
 use super::curve::{Checkpoints, Point};
 use super::ranking::{self, Against, Contender, Opponent, Question, Standing};
@@ -9,31 +9,31 @@ use crate::scene::{ReferenceDoc, SceneDoc};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// One view with its newest picture.
+/// One view with its newest image.
 #[derive(Clone, Debug)]
 pub struct View {
     /// A, B, C, …
     pub label: String,
-    /// What it renders, file names as the session got them.
+    /// Document that it renders, with the file names passed to the session.
     pub doc: Arc<SceneDoc>,
-    /// Its newest picture.
+    /// Newest image.
     pub snapshot: Arc<Snapshot>,
-    /// Earlier ones.
+    /// Earlier images.
     pub checkpoints: Arc<Checkpoints>,
 }
 
-/// A comparison with everything that came of it so far.
+/// A comparison with its current images.
 #[derive(Clone, Debug)]
 pub struct Experiment {
     /// The scene with its comparison.
     pub doc: Arc<SceneDoc>,
-    /// Its views that have a picture, each with its number from 0.
+    /// Views that have an image, each with its index from 0.
     pub views: Vec<(usize, View)>,
-    /// What errors are measured against, if there is a picture of it.
+    /// Reference for errors, if it has an image.
     pub reference: Option<Arc<Reference>>,
 }
 
-/// A, B, C, … for 0, 1, 2, …
+/// Letter of a view: A, B, C, … for 0, 1, 2, …
 #[must_use]
 pub fn label(view: usize) -> String {
     u8::try_from(view)
@@ -42,7 +42,8 @@ pub fn label(view: usize) -> String {
         .map_or_else(|| view.to_string(), |v| char::from(b'A' + v).to_string())
 }
 
-/// Okabe and Ito's colours (2008), which every eye tells apart and which stand out on white and on black, and a grey in place of their black.
+/// Okabe and Ito's colours (2008), which are distinguishable with colour-vision deficiencies and have
+/// contrast on white and on black, with a grey in place of their black.
 const COLOURS: [[u8; 3]; 8] = [
     [0x00, 0x72, 0xb2],
     [0xd5, 0x5e, 0x00],
@@ -61,8 +62,8 @@ pub fn view_colour(view: usize) -> [u8; 3] {
 }
 
 impl Experiment {
-    /// The region that numbers are about, if it is not the whole. One that lies beside the picture, whose size
-    /// may have changed, is none.
+    /// Region of the measurements, if it is not the whole image. A region outside the image, whose size may
+    /// have changed, counts as none.
     #[must_use]
     pub fn region(&self) -> Option<Region> {
         let [x0, y0, x1, y1] = self.doc.compare.region?.map(|x| x as usize);
@@ -91,41 +92,41 @@ impl Experiment {
         }
     }
 
-    /// The table.
+    /// Ranks the views.
     #[must_use]
     pub fn rank(&self, measures: Vec<&'static Measure>) -> Vec<Standing> {
         self.rank_against(measures, &self.opponents())
     }
 
-    /// Whether errors are measured: against a reference, or against the mean of the other unbiased views if that was
-    /// chosen. Without either, variances and verdicts are all there is.
+    /// Whether errors are measured: against a reference, or against the mean of the other unbiased views if
+    /// that was chosen. Without either, only variances and verdicts are available.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.reference.is_some() || self.doc.compare.reference == ReferenceDoc::Pooled
     }
 
-    /// The table, with what [`Self::opponents`] has found: pooled pictures are dear.
+    /// Ranks the views with the result of [`Self::opponents`], since pooling images is expensive.
     #[must_use]
     pub fn rank_against(&self, measures: Vec<&'static Measure>, opponents: &[Opponent<'_>]) -> Vec<Standing> {
         let measures = if self.has_errors() { measures } else { Vec::new() };
         ranking::rank(&self.contenders(), &self.question(measures), opponents)
     }
 
-    /// What every view is held against, in the order of `views`.
+    /// Comparison image of every view, in the order of `views`.
     #[must_use]
     pub fn opponents(&self) -> Vec<Opponent<'_>> {
         ranking::opponents(&self.contenders(), &self.question(Vec::new()))
     }
 
-    /// What a view is held against, by its number: the reference, or the mean of the other unbiased views.
+    /// Comparison image of a view, by index: the reference, or the mean of the other unbiased views.
     #[must_use]
     pub fn held_against(&self, view: usize) -> (Against, Option<Cow<'_, Reference>>) {
         let place = self.views.iter().position(|(n, _)| *n == view).unwrap_or(usize::MAX);
         ranking::opponent(&self.contenders(), place, &self.question(Vec::new()))
     }
 
-    /// What the errors of a view are measured against, by its number: [`Self::held_against`] as far as it is known well
-    /// enough for that ([`ranking::can_measure`]); none without a reference.
+    /// Image against which the errors of a view are measured, by index: [`Self::held_against`] if its noise
+    /// is low enough ([`ranking::can_measure`]); `None` without a reference.
     #[must_use]
     pub fn measured_against(&self, view: usize) -> Option<Cow<'_, Reference>> {
         let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v)?;
@@ -134,7 +135,7 @@ impl Experiment {
         opponent.1.filter(|_| usable)
     }
 
-    /// The error curve of a view against the reference; empty without one.
+    /// Error curve of a view against the reference; empty without one.
     #[must_use]
     pub fn curve(&self, view: usize, measure: &Measure) -> Vec<Point> {
         let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v);

@@ -1,4 +1,4 @@
-//! Estimators side by side: which one wins, by how much, and how sure that is.
+//! Comparison of estimators: efficiency, errors and bias, with their uncertainty.
 //!
 //! ```text
 //!   Session (fair turns) ──► Snapshot of every view ──┐
@@ -6,8 +6,8 @@
 //!                                                     └─► maps, curves, report
 //! ```
 //!
-//! Everything here is a pure function of pictures with their noise. [`rank`] holds every view against the
-//! reference, or against the mean of the *other* unbiased views where there is none.
+//! All functions are pure functions of images with their noise. [`rank`] compares every view with the
+//! reference, or with the mean of the *other* unbiased views where there is none.
 
 mod agreement;
 pub mod curve;

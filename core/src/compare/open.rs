@@ -1,4 +1,4 @@
-//! Opens a reference for a scene, and says why another scene's is of no use.
+//! Opening of a reference for a scene, with checks that it shows the same image.
 
 use super::experiment::label;
 use super::reference::Reference;
@@ -7,59 +7,60 @@ use crate::io::{Library, scene_file};
 use crate::scene::{Mode, SceneDoc, keys};
 use std::path::Path;
 
-/// Why a picture cannot be the reference of a scene.
+/// Reason why an image cannot be the reference of a scene.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
     /// It could not be read.
     #[error("the reference {0}")]
     Picture(#[from] PictureError),
-    /// It has another size.
+    /// It has a different size.
     #[error(
         "the reference {file} has {} × {} pixels, but the scene {} × {}: render a new one of this size with \
-         `majorant render SCENE --spp 4096 -o {file}`, or give the scene the reference's size",
+         `majorant render SCENE --spp 4096 -o {file}`, or set the size of the scene to that of the reference",
         reference[0], reference[1], scene[0], scene[1]
     )]
     Size {
-        /// The reference's file.
+        /// File of the reference.
         file: String,
-        /// Its columns and rows.
+        /// Columns and rows of the reference.
         reference: [usize; 2],
-        /// Those of the scene.
+        /// Columns and rows of the scene.
         scene: [usize; 2],
     },
-    /// It is a picture of the scene with a wrong mean, or with noise that cannot be told.
+    /// It shows the scene with a bias, or with unknown noise.
     #[error(
-        "the reference {file} cannot be one: {reason}. Render a new one with `majorant render SCENE --spp 4096 -o \
+        "the reference {file} cannot be used: {reason}. Render a new one with `majorant render SCENE --spp 4096 -o \
          {file}`, or name another file"
     )]
     Unfit {
-        /// The reference's file.
+        /// File of the reference.
         file: String,
-        /// What is wrong with it.
+        /// Reason why it is unsuitable.
         reason: &'static str,
     },
-    /// It is a picture of something else.
+    /// It shows a different image.
     #[error(
-        "the reference {file} shows another image ({reference}) than the scene ({scene}): {check}. Render a new \
+        "the reference {file} shows a different image ({reference}) from the scene ({scene}): {check}. Render a new \
          one of this scene with `majorant render SCENE --spp 4096 -o {file}`, or name another file"
     )]
     Target {
-        /// The reference's file.
+        /// File of the reference.
         file: String,
-        /// The name of the image that it shows.
+        /// Fingerprint of the image that the reference shows.
         reference: String,
-        /// The name of the image that the scene shows.
+        /// Fingerprint of the image of the scene.
         scene: String,
-        /// What differs, as far as the file tells.
+        /// Differences, as far as the metadata of the file shows.
         check: String,
     },
 }
 
-/// Reads a reference for the image of a document's first view. A file that does not say what it shows, as one
-/// by another renderer, is taken on trust, with a note.
+/// Reads a reference for the image of the first view of a document. A file without a fingerprint, such as one
+/// by another renderer, is accepted with a note.
 ///
 /// # Errors
-/// When it cannot be read, has another size or shows another image than the scene, or is biased by its own settings.
+/// When it cannot be read, has a different size, shows a different image from the scene, or has biased
+/// settings.
 pub fn open(
     file: &str,
     doc: &SceneDoc,
@@ -97,27 +98,27 @@ pub fn open(
         .collect();
     if let (Some(seed), false) = (seed, shared.is_empty()) {
         notes.push(format!(
-            "{file} was rendered with seed {seed}, as is view {}: what they have in common looks like agreement; \
-             give the views other seeds",
+            "{file} was rendered with seed {seed}, like view {}: their correlated noise looks like agreement; \
+             choose other seeds for the views",
             shared.join(", ")
         ));
     }
     Ok(reference)
 }
 
-/// The random numbers that a picture was rendered with, if it says so: views that have the same look better
-/// than they are.
+/// Seed with which an image was rendered, if its metadata state one. A view with the same seed would appear
+/// more accurate than it is.
 #[must_use]
 pub fn seed_of(picture: &Path) -> Option<u64> {
     metadata(picture)?["seed"].as_u64()
 }
 
-/// What the program that wrote a picture says about it.
+/// Metadata of an image in JSON, if it has any.
 fn metadata(path: &Path) -> Option<serde_json::Value> {
     serde_json::from_str(&picture::exr_info(path).ok()?.metadata?).ok()
 }
 
-/// What to look at first: the parts of the scene in the file that are not the document's.
+/// Describes the differences between the scene in the file and the document.
 fn difference(path: &Path, doc: &SceneDoc) -> String {
     let metadata = metadata(path);
     let text = metadata.as_ref().and_then(|m| m["scene"].as_str());
@@ -148,7 +149,7 @@ fn difference(path: &Path, doc: &SceneDoc) -> String {
     if !others.is_empty() {
         found.push(format!("these differ: {}", others.join(", ")));
     }
-    if found.is_empty() { "a file that the scene names has changed since".into() } else { found.join("; ") }
+    if found.is_empty() { "a file that the scene references has changed".into() } else { found.join("; ") }
 }
 
 #[cfg(test)]
@@ -159,7 +160,7 @@ mod tests {
     use crate::io::export;
     use crate::scene::{Limits, ReferenceDoc};
 
-    /// The fixture without a reference, with the picture of its first view as a file.
+    /// The fixture without a reference, with the image of its first view as a file.
     fn rendered(folder: &Path) -> (SceneDoc, String) {
         let mut doc = fixture::doc("opened");
         doc.compare.reference = ReferenceDoc::None;
@@ -218,7 +219,7 @@ mod tests {
         export::write_exr(&path, &view.snapshot, &view.doc).unwrap();
         let message = opened(&path.display().to_string(), &doc.unbiased()).0.unwrap_err().to_string();
         assert!(message.contains("a fault is planted"), "{message}");
-        // One that overflowed says so, too.
+        // An image that overflowed states it as well.
         let mut lossy = (*view.snapshot).clone();
         lossy.tally.non_finite = 3;
         export::write_exr(&path, &lossy, &doc.unbiased()).unwrap();
@@ -227,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_by_somebody_else_is_taken_on_trust() {
+    fn a_picture_by_another_renderer_is_accepted_with_a_note() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("theirs.exr");
         exr::prelude::write_rgb_file(&path, 24, 16, |_, _| (0.5f32, 0.5f32, 0.5f32)).unwrap();

@@ -1,4 +1,4 @@
-//! The table: every view's cost, noise, error, speed-up with its interval, and whether it is biased.
+//! Ranking of the views: cost, noise, error, speed-up with its interval, and bias.
 
 use super::agreement::{Agreement, Verdict, agreement};
 use super::estimate::{Estimate, RegionNoise};
@@ -11,38 +11,38 @@ use crate::measure::{self, Measure, Measured, Region};
 use crate::scene::SceneDoc;
 use std::borrow::Cow;
 
-/// A view as it competes.
+/// A view in a ranking.
 #[derive(Clone, Copy, Debug)]
 pub struct Contender<'a> {
     /// A, B, C, …
     pub label: &'a str,
-    /// What it renders.
+    /// Document that it renders.
     pub doc: &'a SceneDoc,
-    /// Its newest picture.
+    /// Newest image.
     pub snapshot: &'a Snapshot,
 }
 
 impl Contender<'_> {
-    /// The estimator's name for people.
+    /// Display name of the estimator.
     #[must_use]
     pub fn name(&self) -> &str {
         estimator::find(&self.doc.estimator.id).map_or(self.doc.estimator.id.as_str(), |e| e.name)
     }
 
-    /// Why its estimate is biased, if a choice of its document makes it so.
+    /// Reason why its estimate is biased, if a setting of its document biases it.
     #[must_use]
     pub fn declared_bias(&self) -> Option<&'static str> {
         estimator::find(&self.doc.estimator.id).and_then(|e| e.bias(self.doc))
     }
 
-    /// Why its picture says nothing about another's bias, if so: what it is held against has to be unbiased, with noise
-    /// that can be told.
+    /// Reason why its image cannot serve as a reference, if so: a reference has to be unbiased with known
+    /// noise.
     #[must_use]
     pub fn unfit_as_reference(&self) -> Option<&'static str> {
         unfit_picture(self.doc, self.snapshot)
     }
 
-    /// Whether two views may be held against each other: of one image, with random numbers of their own.
+    /// Whether two views can be compared: they show the same image with different random numbers.
     fn is_comparable(&self, other: &Self) -> bool {
         self.snapshot.target == other.snapshot.target
             && self.doc.render.seed != other.doc.render.seed
@@ -50,46 +50,46 @@ impl Contender<'_> {
     }
 }
 
-/// What a ranking is about.
+/// Parameters of a ranking.
 #[derive(Clone, Debug)]
 pub struct Question<'a> {
-    /// What errors are measured against; absent: for each view the mean of the other unbiased ones.
+    /// Reference for errors; `None`: for each view the mean of the other unbiased views.
     pub reference: Option<&'a Reference>,
-    /// The view that *is* the reference, if one was promoted.
+    /// View whose image is the reference, if one was promoted.
     pub reference_view: Option<usize>,
-    /// The view that speed-ups are relative to.
+    /// View to which speed-ups are relative.
     pub baseline: usize,
-    /// The pixels; absent: all.
+    /// Region of pixels; `None`: the whole image.
     pub region: Option<Region>,
-    /// The measures of error to compute.
+    /// Error measures to compute.
     pub measures: Vec<&'static Measure>,
 }
 
-/// What a view was held against.
+/// Comparison image of a view.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Against {
-    /// The reference, by where it comes from.
+    /// The reference, by its origin.
     Reference(String),
     /// The mean of the other unbiased views, by their labels.
     Others(String),
-    /// Nothing, and why.
+    /// No comparison image, with the reason.
     Nothing(&'static str),
 }
 
-/// One line of the table.
+/// One line of the ranking.
 #[derive(Clone, Debug)]
 pub struct Standing {
     /// A, B, C, …
     pub label: String,
-    /// The estimator's id.
+    /// Estimator id.
     pub estimator: String,
-    /// Its name for people.
+    /// Display name of the estimator.
     pub name: String,
     /// Samples per pixel.
     pub spp: u64,
     /// CPU seconds of path tracing.
     pub cpu_seconds: f64,
-    /// Seconds of rendering.
+    /// Wall-clock seconds of rendering.
     pub seconds: f64,
     /// Look-ups of the medium.
     pub lookups: u64,
@@ -97,61 +97,61 @@ pub struct Standing {
     pub lookups_per_path: f64,
     /// Errors by measure, in the order of the question.
     pub errors: Vec<(&'static Measure, Measured)>,
-    /// Variance of a pixel's mean, over pixels and channels.
+    /// Variance of the mean of a pixel, averaged over pixels and channels.
     pub variance: f64,
-    /// Standard error of that.
+    /// Standard error of `variance`.
     pub variance_error: f64,
-    /// The part of it that is colour noise.
+    /// Component of `variance` that is colour noise.
     pub chroma_variance: f64,
     /// 1 / (variance · CPU seconds).
     pub efficiency: f64,
-    /// Efficiency over that of the baseline.
+    /// Efficiency relative to the baseline.
     pub speedup: f64,
-    /// Its 95 % interval.
+    /// 95 % interval of `speedup`.
     pub speedup_interval: [f64; 2],
-    /// What it was held against.
+    /// Image that it was compared with.
     pub against: Against,
-    /// What came of it.
+    /// Result of that comparison.
     pub agreement: Option<Agreement>,
-    /// Why it is biased by its own document, if it is.
+    /// Reason why its document biases it, if so.
     pub declared_bias: Option<&'static str>,
-    /// Whether its samples are spread evenly over a pixel: the errors of its means are then smaller than their scatter
-    /// says, and so are the differences that a verdict could have found.
+    /// Whether its samples are stratified over a pixel. The errors of its means are then smaller than their
+    /// scatter, and so are the differences that a verdict can detect.
     pub evenly_spread: bool,
-    /// Pixels in the region, and how many of them have no value.
+    /// Pixels in the region.
     pub pixels: u64,
     /// Pixels without a finite value.
     pub excluded: u64,
 }
 
 impl Standing {
-    /// The verdict; undecided if there is nothing to hold it against.
+    /// The verdict; undecided without a comparison.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         self.agreement.map_or(Verdict::Undecided, |a| a.verdict)
     }
 
-    /// An error by its id.
+    /// Error by the id of its measure.
     #[must_use]
     pub fn error(&self, id: &str) -> Option<&Measured> {
         self.errors.iter().find(|(m, _)| m.id == id).map(|(_, measured)| measured)
     }
 }
 
-/// Two-sided 95 % of a normal distribution.
+/// Two-sided 95 % quantile of the normal distribution.
 const INTERVAL: f64 = 1.959_964;
 
-/// What a view is held against, with the picture.
+/// A comparison image with its description.
 pub type Opponent<'a> = (Against, Option<Cow<'a, Reference>>);
 
-/// What every view is held against.
+/// Comparison images of all views.
 #[must_use]
 pub fn opponents<'a>(contenders: &[Contender<'_>], question: &Question<'a>) -> Vec<Opponent<'a>> {
     (0..contenders.len()).map(|i| opponent(contenders, i, question)).collect()
 }
 
-/// Ranks the views by what each is held against. A view without three samples per pixel has no numbers yet and
-/// is left out.
+/// Ranks the views by comparison with their opponents. Views with fewer than three samples per pixel have no
+/// statistics yet and are omitted.
 #[must_use]
 pub fn rank(
     contenders: &[Contender<'_>],
@@ -161,14 +161,14 @@ pub fn rank(
     let baseline = contenders.get(question.baseline);
     let baseline = baseline.and_then(|b| Some((efficiency(b, question.region)?, b.snapshot.target.as_str())));
     let views = contenders.iter().zip(opponents).enumerate();
-    // Against a biased view errors can be measured, but no verdict be given.
+    // Errors can be measured against a biased view, but it gives no verdict.
     let promoted = question.reference_view.and_then(|v| contenders.get(v));
     let judged = promoted.is_none_or(|view| view.unfit_as_reference().is_none());
     let standings = views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline));
     standings.map(|s| Standing { agreement: s.agreement.filter(|_| judged), ..s }).collect()
 }
 
-/// The region of a question in a picture.
+/// Region of a question, clipped to an image.
 fn region_of(region: Option<Region>, snapshot: &Snapshot) -> Region {
     let whole = Region::whole(snapshot.width, snapshot.height);
     region.map_or(whole, |r| r.clipped(snapshot.width, snapshot.height))
@@ -204,7 +204,7 @@ fn standing(
     let mine = efficiency(view, question.region)?;
     let (speedup, speedup_interval) = match baseline {
         Some(_) if index == question.baseline => (1.0, [1.0, 1.0]),
-        // To be sooner at another image is no advantage.
+        // A speed-up is defined only for the same image.
         Some((_, target)) if target != snapshot.target => (f64::NAN, [f64::NAN; 2]),
         Some((base, _)) => {
             let ratio = mine.value / base.value;
@@ -243,14 +243,14 @@ fn standing(
     })
 }
 
-/// The relative standard error up to which the noise of other views counts as known.
+/// Largest relative standard error at which the noise of the other views counts as known.
 const KNOWN: f64 = 0.25;
-/// The most variance that the mean of the other views may have over that of the view.
+/// Largest ratio of the variance of the mean of the other views to that of the view.
 const WORSE: f64 = 2.0;
 
-/// Whether a view's errors can be measured against its opponent. A reference was chosen for it, and its noise stands
-/// beside every error. The mean of the other views has to have noise that is known and about as low as the view's: what is
-/// measured against a much worse picture is that picture's noise.
+/// Whether the errors of a view can be measured against its opponent. This always holds for a reference,
+/// whose noise is stated beside every error. The mean of the other views has to have known noise, of about
+/// the same level as the view's: an error against a much noisier image would be the noise of that image.
 #[must_use]
 pub fn can_measure(view: &Snapshot, (against, held): &Opponent<'_>, region: Option<Region>) -> bool {
     let (Some(held), Some(estimate)) = (held, Estimate::of(view)) else { return false };
@@ -269,7 +269,7 @@ fn errors(
     region: Region,
     measures: &[&'static Measure],
 ) -> Vec<(&'static Measure, Measured)> {
-    let held = measure::Reference {
+    let held = measure::ReferencePicture {
         picture: reference.estimate().picture,
         standard_error: reference.standard_error(),
     };
@@ -277,34 +277,30 @@ fn errors(
     measured.filter_map(|(m, result)| Some((m, result.ok()?))).collect()
 }
 
-/// What a view is held against, with the picture.
+/// Comparison image of a view, with its description.
 pub(super) fn opponent<'a>(
     contenders: &[Contender<'_>],
     index: usize,
     question: &Question<'a>,
 ) -> Opponent<'a> {
-    let Some(view) = contenders.get(index) else { return (Against::Nothing("there is no such view"), None) };
+    let Some(view) = contenders.get(index) else {
+        return (Against::Nothing("the view does not exist"), None);
+    };
     if question.reference_view == Some(index) {
         return (Against::Nothing("it is the reference"), None);
     }
     if let Some(reference) = question.reference {
         let promoted = question.reference_view.and_then(|v| contenders.get(v));
         if promoted.is_some_and(|p| p.doc.render.seed == view.doc.render.seed) {
-            return (
-                Against::Nothing("it has the random numbers of the reference: give it another seed"),
-                None,
-            );
+            return (Against::Nothing("it has the seed of the reference: choose another seed"), None);
         }
         if reference.seed == Some(view.doc.render.seed) {
-            return (
-                Against::Nothing("it has the random numbers of the reference: give it another seed"),
-                None,
-            );
+            return (Against::Nothing("it has the seed of the reference: choose another seed"), None);
         }
         if reference.fits(&view.snapshot.target) {
             return (Against::Reference(reference.origin.clone()), Some(Cow::Borrowed(reference)));
         }
-        return (Against::Nothing("the reference is a picture of something else"), None);
+        return (Against::Nothing("the reference shows a different image"), None);
     }
     let others: Vec<&Contender<'_>> = contenders
         .iter()
@@ -316,7 +312,7 @@ pub(super) fn opponent<'a>(
     let mut seeds = Vec::new();
     let others: Vec<&Contender<'_>> = others
         .into_iter()
-        // Equal random numbers are no more information than one of them.
+        // Images with equal random numbers carry no more information than one of them.
         .filter(|other| {
             let fresh = !seeds.contains(&other.doc.render.seed);
             seeds.push(other.doc.render.seed);

@@ -1,4 +1,4 @@
-//! Tests of the ranking on pictures whose noise is known.
+//! Tests of the ranking on images with known noise.
 
 use super::{Against, Contender, Question, Reference, Standing, Verdict, opponents, rank};
 use crate::film::{Film, Images, Snapshot, Tally};
@@ -10,7 +10,7 @@ use std::sync::Arc;
 const SIZE: usize = 24;
 const SPP: u64 = 24;
 
-/// Exponential samples of mean 1 + `bias`, averaged `quiet` at a time: the variance of one is 1/quiet.
+/// Exponential samples of mean 1 + `bias`, averaged over `quiet` values, with variance 1/quiet.
 fn picture(seed: u64, quiet: u64, bias: f32) -> Snapshot {
     let mut film = Film::new(SIZE, SIZE);
     for (i, pixel) in film.pixels.iter_mut().enumerate() {
@@ -69,17 +69,18 @@ fn efficiency_is_what_its_formula_says() {
     for (s, variance) in standings.iter().zip([1.0, 0.25]) {
         assert!((s.variance * SPP as f64 / variance - 1.0).abs() < 0.1, "{}", s.variance);
         assert!((s.efficiency * s.variance * s.cpu_seconds - 1.0).abs() < 1e-9);
-        // Channels are independent here: two thirds of the variance are perpendicular to grey.
+        // The channels are independent here, so that two thirds of the variance are perpendicular to grey.
         assert!((s.chroma_variance / s.variance - 2.0 / 3.0).abs() < 0.05);
         assert_eq!(s.lookups_per_path, 7.0);
     }
     assert_eq!((standings[0].speedup, standings[0].speedup_interval), (1.0, [1.0, 1.0]));
-    // Against the other view, whose own noise is taken off: the error is the variance.
+    // Compared with the other view and corrected for its noise, the error equals the variance.
     let mse = standings[0].error("mse").unwrap().corrected();
     assert!((mse / standings[0].variance - 1.0).abs() < 0.2, "{mse} {}", standings[0].variance);
 }
 
-/// Without a reference the better view must not look worse: nothing is measured against what is much noisier.
+/// Without a reference the better view must not look worse: no error is measured against a much noisier
+/// image.
 #[test]
 fn against_much_noisier_views_nothing_is_measured() {
     let views = [(doc(0), picture(1, 64, 0.0)), (doc(1), picture(2, 1, 0.0))];
@@ -87,12 +88,12 @@ fn against_much_noisier_views_nothing_is_measured() {
     assert!(standings[0].errors.is_empty() && standings[0].agreement.is_some());
     let mse = standings[1].error("mse").unwrap();
     assert!((mse.corrected() / standings[1].variance - 1.0).abs() < 0.2, "{mse:?}");
-    // A view that has met nothing yet has no noise that could be taken off.
+    // A black view has no noise to correct for.
     let views = [(doc(0), picture(1, 64, 0.0)), (doc(1), picture(2, 1, -1.0))];
     let standings = ranked(&views, &question());
     assert_eq!(standings[0].against, Against::Others("B".into()));
     assert!(standings.iter().all(|s| s.errors.is_empty()));
-    // A reference was chosen: its noise is stated, whatever it is.
+    // A chosen reference is always used, and its noise is stated.
     let noisy = Arc::new(picture(3, 1, 0.0));
     let reference = Reference::of(&noisy, "noisy");
     let question = Question { reference: Some(&reference), ..question() };
@@ -129,7 +130,7 @@ fn noise_of_the_cost_widens_the_interval() {
 }
 
 #[test]
-fn a_biased_view_judges_nobody_and_is_found() {
+fn a_biased_view_is_excluded_from_pools_and_detected() {
     let mut clamped = doc(2);
     clamped.medium.majorant.factor = 0.5;
     clamped.medium.majorant.when_exceeded = WhenExceeded::Clamp;
@@ -144,7 +145,7 @@ fn a_biased_view_judges_nobody_and_is_found() {
 }
 
 #[test]
-fn views_are_held_only_against_what_shows_the_same_image_with_other_numbers() {
+fn views_are_compared_only_with_the_same_image_under_other_random_numbers() {
     let nothing = |views: &[(SceneDoc, Snapshot)], question: &Question<'_>| {
         let s = &ranked(views, question)[0];
         assert!(s.errors.is_empty() && s.agreement.is_none());
@@ -154,22 +155,22 @@ fn views_are_held_only_against_what_shows_the_same_image_with_other_numbers() {
         }
     };
     let (a, b) = (picture(1, 1, 0.0), picture(2, 1, 0.0));
-    // The same seed.
+    // Equal seeds.
     assert!(nothing(&[(doc(0), a.clone()), (doc(0), b.clone())], &question()).contains("own seed"));
-    // Another image.
+    // Different images.
     let other = Snapshot { target: "another".into(), ..b.clone() };
     assert!(nothing(&[(doc(0), a.clone()), (doc(1), other.clone())], &question()).contains("same image"));
-    // A reference of another image is not used, whoever else is there.
+    // A reference of a different image is not used, even if other views exist.
     let stale = Reference::of(&Arc::new(other), "stale.exr");
     let with = Question { reference: Some(&stale), ..question() };
-    assert!(nothing(&[(doc(0), a.clone()), (doc(1), b.clone())], &with).contains("something else"));
-    // A view is no reference for itself.
+    assert!(nothing(&[(doc(0), a.clone()), (doc(1), b.clone())], &with).contains("different image"));
+    // A view is not its own reference.
     let promoted = Reference::of(&Arc::new(a.clone()), "view A");
     let with = Question { reference: Some(&promoted), reference_view: Some(0), ..question() };
     assert!(nothing(&[(doc(0), a), (doc(1), b)], &with).contains("the reference"));
 }
 
-/// The pool leaves out what is biased, has a variance without bound, or has lost samples.
+/// The pool excludes images that are biased, have infinite variance, or lost samples.
 #[test]
 fn only_sound_pictures_are_pooled() {
     let against = |edit: fn(&mut SceneDoc, &mut Snapshot)| {
@@ -190,9 +191,9 @@ fn only_sound_pictures_are_pooled() {
     );
 }
 
-/// A promoted view that is biased measures errors, and gives no verdict.
+/// A promoted view that is biased measures errors, but gives no verdict.
 #[test]
-fn a_biased_view_judges_nobody() {
+fn a_biased_reference_gives_no_verdict() {
     let views = |when_exceeded| {
         let mut biased = doc(2);
         biased.medium.majorant.factor = 0.5;

@@ -1,4 +1,4 @@
-//! What errors are measured against.
+//! Reference images for error measurement.
 
 use super::estimate::Estimate;
 use super::fitness::{LOST, unfit_document};
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// A picture that others are held against, with its own noise and the image that it belongs to.
+/// A reference image with its noise and the fingerprint of the image that it estimates.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Columns.
@@ -18,21 +18,21 @@ pub struct Reference {
     /// Rows.
     pub height: usize,
     picture: Source,
-    /// Names the image that it estimates ([`crate::io::Library::fingerprint`]); absent if nobody knows, as for
-    /// a picture by another renderer.
+    /// Fingerprint of the image ([`crate::io::Library::fingerprint`]); `None` if unknown, as for an image by
+    /// another renderer.
     pub target: Option<String>,
-    /// Where it comes from, for people.
+    /// Display text that describes its source.
     pub origin: String,
-    /// Its random numbers, if a file says so: no view may have the same.
+    /// Seed stated by its file; no view may have the same.
     pub seed: Option<u64>,
-    /// What reading its file changed or left out.
+    /// Changes and omissions when its file was read.
     pub notices: Vec<String>,
-    /// Why it is no reference, if a file says so: it was rendered with a setting that biases, its variance has no bound,
-    /// or samples were left out of it.
+    /// Reason stated by its file why it cannot serve as a reference: biased settings, infinite variance, or
+    /// excluded samples.
     pub unfit: Option<&'static str>,
 }
 
-/// Whose pixels they are: a view's are shared, not copied.
+/// Pixel storage: those of a view are shared, not copied.
 #[derive(Clone, Debug)]
 enum Source {
     View(Arc<Snapshot>),
@@ -40,7 +40,7 @@ enum Source {
 }
 
 impl Reference {
-    /// The picture of a view.
+    /// Creates a reference from the image of a view.
     #[must_use]
     pub fn of(snapshot: &Arc<Snapshot>, origin: impl Into<String>) -> Self {
         Self {
@@ -55,13 +55,13 @@ impl Reference {
         }
     }
 
-    /// The same, with the random numbers that it was rendered with.
+    /// Adds the seed with which it was rendered.
     #[must_use]
     pub fn with_seed(self, seed: u64) -> Self {
         Self { seed: Some(seed), ..self }
     }
 
-    /// A picture with its standard error, that no view shows.
+    /// Creates a reference from an image with its standard error, independent of any view.
     #[must_use]
     pub fn own(
         (width, height): (usize, usize),
@@ -73,7 +73,7 @@ impl Reference {
         Self { width, height, picture, target: None, origin, seed: None, notices: Vec::new(), unfit: None }
     }
 
-    /// The view's picture that it is, if it is one.
+    /// Snapshot of the view whose image this is, if it is one.
     #[must_use]
     pub fn snapshot(&self) -> Option<&Arc<Snapshot>> {
         match &self.picture {
@@ -91,7 +91,7 @@ impl Reference {
         }
     }
 
-    /// Its standard error; absent: taken as exact.
+    /// Standard error; `None` if the means are treated as exact.
     #[must_use]
     pub fn standard_error(&self) -> Option<&[[f32; 3]]> {
         match &self.picture {
@@ -100,7 +100,7 @@ impl Reference {
         }
     }
 
-    /// What else is known of its noise.
+    /// Further noise statistics.
     fn noise(&self) -> Option<&[Noise]> {
         match &self.picture {
             Source::View(snapshot) => {
@@ -110,7 +110,7 @@ impl Reference {
         }
     }
 
-    /// Reads an EXR: R, G, B and, if they are there, standard errors and the name of the image.
+    /// Reads an EXR file: R, G, B and, if present, standard errors and fingerprint.
     ///
     /// # Errors
     /// When the file is missing, damaged, or has no R, G and B.
@@ -135,8 +135,9 @@ impl Reference {
         })
     }
 
-    /// The mean of independent pictures of one image, weighted by the inverse of their average variance: one
-    /// weight per picture, since a pixel's own variance and mean hang together. `None` if there is none.
+    /// Mean of independent images of the same scene, weighted by the inverse of their average variance. There
+    /// is one weight per image, since the variance and the mean of a pixel are correlated. `None` without
+    /// images.
     #[must_use]
     pub fn pooled(snapshots: &[&Snapshot], origin: impl Into<String>) -> Option<Self> {
         let estimates: Vec<Estimate<'_>> = snapshots.iter().filter_map(|s| Estimate::of(s)).collect();
@@ -152,7 +153,7 @@ impl Reference {
         let inverse: Vec<f64> = estimates
             .iter()
             .map(|e| super::RegionNoise::of(e, whole, |_| true).average_variance())
-            // A picture without noise counts as one with very little.
+            // An image without noise is given a very small variance.
             .map(|v| 1.0 / v.max(1e-30))
             .collect();
         let total: f64 = inverse.iter().sum();
@@ -193,7 +194,7 @@ impl Reference {
         })
     }
 
-    /// The picture with its noise.
+    /// The image with its noise statistics.
     #[must_use]
     pub fn estimate(&self) -> Estimate<'_> {
         Estimate {
@@ -203,14 +204,15 @@ impl Reference {
         }
     }
 
-    /// Whether this is a picture of the image with this name.
+    /// Whether it shows the image with this fingerprint.
     #[must_use]
     pub fn fits(&self, target: &str) -> bool {
         self.target.as_deref() == Some(target)
     }
 }
 
-/// What the metadata of a file tells against it. A scene that this version does not read tells nothing.
+/// Reason in the metadata of a file why it cannot serve as a reference. A scene that this version cannot read
+/// gives none.
 fn unfit(metadata: &serde_json::Value) -> Option<&'static str> {
     let lost = metadata["non_finite"].as_u64().is_some_and(|n| n > 0).then_some(LOST);
     let doc = metadata["scene"].as_str().and_then(|text| scene_file::parse(text, "the reference").ok());
@@ -250,7 +252,8 @@ mod tests {
         }
     }
 
-    /// Exponential noise of mean 1: the pool of 30 and 90 samples is as good as 120 of them, and knows it.
+    /// Exponential noise of mean 1: the pool of 30 and 90 samples has the error of 120 samples, and states
+    /// it.
     #[test]
     fn a_pool_is_as_good_as_its_samples_together() {
         let size = 40;

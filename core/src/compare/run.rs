@@ -1,10 +1,10 @@
-//! Runs a comparison to its end without a window.
+//! Complete run of a comparison without a window.
 //!
 //! ```text
 //!   SceneDoc with views ──► Session (fair turns, reference in the background) ──► Experiment
 //! ```
 //!
-//! A reference that is rendered costs the views nothing: CPU seconds are counted per view.
+//! A rendered reference does not affect the cost of the views: CPU seconds are counted per view.
 
 use super::curve::Checkpoints;
 use super::experiment::{Experiment, View, label};
@@ -19,77 +19,78 @@ use crate::session::{Ending, Job, Role, Session, Status, ViewId, ViewState};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, sync_channel};
 
-/// Fewer samples per pixel say nothing about their own noise.
+/// Minimum samples per pixel for a noise estimate.
 pub const LEAST_SAMPLES: u64 = 3;
 
-/// Why a comparison came to no end.
+/// Reason why a comparison failed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// Something in the document makes no sense.
+    /// The document is invalid.
     #[error("{0}")]
     Invalid(crate::scene::Problem),
     /// A view has no limit.
     #[error("view {label} would never end: limit its samples or its CPU seconds")]
     Endless {
-        /// Which view.
+        /// Label of the view.
         label: String,
     },
     /// The rendered reference has no limit.
     #[error("the reference would never end: give `compare.reference` a limit, `spp` or `relative_error`")]
     EndlessReference,
-    /// The rendered reference would be wrong, or its noise could not be told.
-    #[error("the reference by {estimator} cannot be one: {reason}. Choose another estimator for it")]
+    /// The rendered reference would be biased, or its noise would be unknown.
+    #[error("the reference by {estimator} cannot be used: {reason}. Choose another estimator for it")]
     UnfitReference {
-        /// The estimator's id.
+        /// Estimator id.
         estimator: String,
-        /// What is wrong with it.
+        /// Reason why it is unsuitable.
         reason: &'static str,
     },
     /// A view could not be rendered.
     #[error("view {label} ({estimator}): {message}")]
     Failed {
-        /// Which view, or `reference`.
+        /// Label of the view, or `reference`.
         label: String,
-        /// Its estimator's id.
+        /// Estimator id.
         estimator: String,
-        /// The cause and the cure.
+        /// Cause and remedy.
         message: String,
     },
-    /// The reference is of no use.
+    /// The reference cannot be used.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
     /// The operating system refused a thread.
     #[error("no thread could be started: {0}. Close other programs, or try again.")]
     Thread(std::io::Error),
-    /// The session ended by itself.
-    #[error("the renderer stopped by itself: try again")]
+    /// The session ended unexpectedly.
+    #[error("the renderer stopped unexpectedly: try again")]
     Stopped,
 }
 
-/// How far a comparison is.
+/// Progress of a comparison.
 #[derive(Clone, Debug)]
 pub struct Progress {
-    /// From 0 to 1, over everything that is rendered.
+    /// Fraction of the total work, from 0 to 1.
     pub fraction: f64,
-    /// Samples per pixel of every view, in their order; those of a rendered reference come last.
+    /// Samples per pixel of every view, in order, followed by those of a rendered reference.
     pub spp: Vec<u64>,
 }
 
-/// A comparison at its end.
+/// A finished comparison.
 #[derive(Clone, Debug)]
 pub struct Finished {
-    /// The views with their pictures, early and last, and the reference.
+    /// Views with their final images and checkpoints, and the reference.
     pub experiment: Experiment,
-    /// What wants to be known: repaired files, what was taken on trust.
+    /// Notices, such as repaired files and unverified references.
     pub notes: Vec<String>,
 }
 
-/// Renders every view of a document to its limit ([`SceneDoc::view_docs`]) and the reference to its own, by
-/// [`crate::scene::CompareDoc::fairness`]. Views that end below [`LEAST_SAMPLES`] get as many nevertheless.
+/// Renders every view of a document to its limit ([`SceneDoc::view_docs`]) and the reference to its own,
+/// according to [`crate::scene::CompareDoc::fairness`]. Views that end with fewer than [`LEAST_SAMPLES`]
+/// samples are extended to that number.
 ///
 /// # Errors
-/// When the document makes no sense, a view cannot be rendered, or the reference is missing or of
-/// something else.
+/// When the document is invalid, a view cannot be rendered, or the reference is missing or shows a different
+/// image.
 pub fn run(
     doc: &SceneDoc,
     mut library: Library,
@@ -133,7 +134,7 @@ pub fn run(
         let promoted = views.get(view).map(|(_, v)| v);
         if let Some((v, why)) = promoted.and_then(|v| Some((v, unfit_picture(&v.doc, &v.snapshot)?))) {
             notes.push(format!(
-                "view {} is the reference, but {why}: nothing is said about the bias of others",
+                "view {} is the reference, but {why}: the bias of the other views is not tested",
                 v.label
             ));
         }
@@ -143,7 +144,7 @@ pub fn run(
     Ok(Finished { experiment, notes })
 }
 
-/// The document of a reference that is still to be rendered, with random numbers that no view has.
+/// Document of a reference that has to be rendered, if there is one, after validation.
 fn background(doc: &SceneDoc) -> Result<Option<Arc<SceneDoc>>, RunError> {
     let Some(reference) = reference_doc(doc) else { return Ok(None) };
     if reference.render.limits().are_none() {
@@ -155,8 +156,8 @@ fn background(doc: &SceneDoc) -> Result<Option<Arc<SceneDoc>>, RunError> {
     Ok(Some(Arc::new(reference)))
 }
 
-/// The document of a reference that is to be rendered, if there is one: with random numbers that no view has, since
-/// what a view shares with its reference looks like agreement.
+/// Document of a reference that has to be rendered, if there is one. Its seed differs from those of all
+/// views, since correlated noise would look like agreement.
 #[must_use]
 pub fn reference_doc(doc: &SceneDoc) -> Option<SceneDoc> {
     let mut reference = doc.reference_doc()?;
@@ -167,12 +168,12 @@ pub fn reference_doc(doc: &SceneDoc) -> Option<SceneDoc> {
     Some(reference)
 }
 
-/// A session with the views of a comparison.
+/// A session that renders the views of a comparison.
 struct Running {
     contenders: Vec<Arc<SceneDoc>>,
     background: Option<Arc<SceneDoc>>,
     checkpoints: Vec<Checkpoints>,
-    /// Goes before the session: a session that waits to be heard would not end.
+    /// Dropped before the session, whose `wake` would otherwise block forever.
     woken: Receiver<()>,
     session: Session,
 }
@@ -185,8 +186,8 @@ impl Running {
         library: Library,
     ) -> Result<Self, RunError> {
         let (wake, woken) = sync_channel::<()>(0);
-        // Two handshakes: the session goes on once its news has been looked at, so that every picture is
-        // seen and the same run has the same checkpoints.
+        // Two rendezvous per wake-up: the session continues only after its state has been read, so that every
+        // image is seen and equal runs have equal checkpoints.
         let session = Session::new(library, move || {
             let _ = wake.send(()).and_then(|()| wake.send(()));
         })
@@ -201,13 +202,13 @@ impl Running {
         Ok(running)
     }
 
-    /// Everything that is rendered, views first.
+    /// All jobs, views first.
     fn jobs(&self) -> impl Iterator<Item = (&Arc<SceneDoc>, Role)> {
         let views = self.contenders.iter().map(|doc| (doc, Role::Contender));
         views.chain(self.background.iter().map(|doc| (doc, Role::Background)))
     }
 
-    /// The states of all views once every one has ended.
+    /// Waits until every view has ended and returns their states.
     fn wait(&mut self, progress: &mut impl FnMut(&Progress)) -> Result<Vec<ViewState>, RunError> {
         let mut extended = false;
         loop {
@@ -247,7 +248,7 @@ impl Running {
     }
 }
 
-/// How far a view is on its way to the limit that it is nearest to.
+/// Progress of a view towards the nearest of its limits.
 fn fraction(limits: &Limits, state: &ViewState) -> f64 {
     let Some(snapshot) = &state.snapshot else { return 0.0 };
     if state.status == Status::Finished {
@@ -255,7 +256,7 @@ fn fraction(limits: &Limits, state: &ViewState) -> f64 {
     }
     let of = |limit: Option<f32>, had: f64| limit.map_or(0.0, |limit| had / f64::from(limit));
     let by_samples = limits.spp.map_or(0.0, |spp| snapshot.spp as f64 / spp as f64);
-    // Errors fall with the root of the samples.
+    // Errors decrease with the square root of the samples.
     let by_error = limits.relative_error.map_or(0.0, |e| (f64::from(e) / snapshot.relative_error()).powi(2));
     let nearest = by_samples
         .max(of(limits.seconds, snapshot.seconds))

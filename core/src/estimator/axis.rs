@@ -1,4 +1,4 @@
-//! The choices that some estimators leave open and others do not.
+//! Settings that only some estimators use.
 
 use crate::scene::{
     Absorption, Bookkeeping, DistanceSampling, Fault, Heuristics, LightSampling, LightSelection, LightWalk,
@@ -7,36 +7,36 @@ use crate::scene::{
 use crate::transmittance::TransmittanceKind;
 use crate::transport::PathSettings;
 
-/// A choice that some estimators leave open and others do not. What every estimator uses (mode, sampler, directions, depth,
-/// roulette) is none.
+/// A setting that only some estimators use. Settings that every estimator uses (mode, sampler, directions,
+/// depth, roulette) are not axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
-    /// [`crate::scene::Absorption`].
+    /// Treatment of absorption ([`crate::scene::Absorption`]).
     Absorption,
-    /// [`crate::scene::DistanceSampling`].
+    /// Distance sampling ([`crate::scene::DistanceSampling`]).
     Distances,
-    /// The heuristic among components.
+    /// MIS heuristic among components.
     Components,
-    /// The heuristic between techniques.
+    /// MIS heuristic between techniques.
     Techniques,
-    /// [`crate::scene::Bookkeeping`].
+    /// Form of the path weights ([`crate::scene::Bookkeeping`]).
     Bookkeeping,
-    /// [`crate::scene::Tracking`].
+    /// Event probabilities of spectral tracking ([`crate::scene::Tracking`]).
     Tracking,
-    /// [`crate::scene::LightSelection`].
+    /// Choice of the light of a connection ([`crate::scene::LightSelection`]).
     Lights,
-    /// [`crate::scene::LightSampling`].
+    /// Sampling of a direction towards a light ([`crate::scene::LightSampling`]).
     LightSampling,
-    /// [`TransmittanceKind`] of connections.
+    /// Transmittance estimator of connections ([`TransmittanceKind`]).
     Transmittance,
-    /// [`crate::scene::LightWalk`].
+    /// Walk that finds lights ([`crate::scene::LightWalk`]).
     LightWalk,
-    /// [`crate::scene::Fault`].
+    /// Deliberate error in the path weights ([`crate::scene::Fault`]).
     Fault,
 }
 
 impl Axis {
-    /// Every axis.
+    /// All axes.
     pub const ALL: [Self; 11] = [
         Self::Absorption,
         Self::Distances,
@@ -51,23 +51,23 @@ impl Axis {
         Self::Fault,
     ];
 
-    /// Why the choice changes nothing about an estimator that does not use it.
+    /// Reason why the setting has no effect on an estimator that does not use it.
     #[must_use]
     pub fn why_unused(self) -> &'static str {
         match self {
             Self::Absorption => "this estimator always weights scattering by the albedo",
-            Self::Distances => "this estimator always tracks by delta",
-            Self::Components => "this estimator forms no path densities of several components to combine",
-            Self::Techniques => "this estimator has no choice of heuristic between techniques",
-            Self::Bookkeeping => "only Uni+NEE MIS offers other forms of its weights",
+            Self::Distances => "this estimator always uses delta tracking",
+            Self::Components => "this estimator does not combine path densities of several components",
+            Self::Techniques => "this estimator does not combine techniques by a selectable heuristic",
+            Self::Bookkeeping => "only Uni+NEE MIS supports other forms of the path weights",
             Self::Tracking => "only spectral tracking draws events for all components at once",
-            Self::Lights | Self::LightSampling => "this estimator connects to no light",
+            Self::Lights | Self::LightSampling => "this estimator does not connect to lights",
             Self::Transmittance => {
-                "this estimator makes no connections, or weighs them by the density of every null collision, which \
-                 other estimates do not have"
+                "this estimator makes no connections, or weights them by the density of every null collision, which \
+                 other transmittance estimates do not have"
             }
-            Self::LightWalk => "only Uni+NEE MIS can meet lights by a walk of its own",
-            Self::Fault => "faults are planted in Uni+NEE MIS only",
+            Self::LightWalk => "only Uni+NEE MIS supports a separate walk to find lights",
+            Self::Fault => "faults can be enabled in Uni+NEE MIS only",
         }
     }
 
@@ -76,12 +76,12 @@ impl Axis {
     }
 }
 
-/// Some axes.
+/// Set of axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AxisSet(u32);
 
 impl AxisSet {
-    /// The axes of a list.
+    /// Creates the set of the listed axes.
     #[must_use]
     pub const fn of(axes: &[Axis]) -> Self {
         let mut bits = 0;
@@ -93,7 +93,7 @@ impl AxisSet {
         Self(bits)
     }
 
-    /// Whether an axis is among them.
+    /// Whether the set contains an axis.
     #[must_use]
     pub const fn contains(self, axis: Axis) -> bool {
         self.0 & axis.bit() != 0
@@ -101,7 +101,8 @@ impl AxisSet {
 }
 
 impl PathSettings {
-    /// The same settings with every axis that is not in `used` at its default: what is not used cannot change an image.
+    /// Returns the settings with every axis that is not in `used` at its default, so that it cannot change an
+    /// image.
     #[must_use]
     #[inline]
     pub fn limited_to(mut self, used: AxisSet) -> Self {

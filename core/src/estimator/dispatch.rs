@@ -1,5 +1,7 @@
-//! From a registry entry to a monomorphic path: mode and medium are matched once per path, and
-//! everything below is one specialised function per estimator × mode × medium.
+//! Dispatch from a registry entry to a monomorphic path.
+//!
+//! Mode and medium are matched once per path; the code below is one specialised function per
+//! estimator × mode × medium.
 
 use super::{AxisSet, Estimator};
 use crate::math::{Sampler, SamplerKind};
@@ -10,7 +12,7 @@ use crate::transmittance::TransmittanceKind;
 use crate::transport::{Note, PathContext, PathSettings, Trace, World};
 use glam::{Vec2, Vec3};
 
-/// Which path of an image.
+/// Index of a path in an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathIndex {
     /// Column.
@@ -21,27 +23,27 @@ pub struct PathIndex {
     pub sample: u64,
 }
 
-/// Traces one path. The estimate of a path that is not wanted any more is meaningless.
+/// Function that traces one path. The estimate of a cancelled path is meaningless.
 pub type Kernel =
     fn(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate;
 
-/// Everything besides the scene that an estimate depends on.
+/// Settings of an estimate, besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Spectral or RGB.
     pub mode: Mode,
-    /// How the samples of a pixel relate to each other.
+    /// Correlation of the samples of a pixel.
     pub sampler: SamplerKind,
-    /// How spectral mode draws wavelengths.
+    /// Wavelength sampling in spectral mode.
     pub wavelengths: WavelengthSampling,
-    /// Choices that every path shares.
+    /// Settings shared by all paths.
     pub path: PathSettings,
-    /// Selects the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Settings {
-    /// From the edited document.
+    /// Creates the settings from the edited document.
     #[must_use]
     pub fn new(doc: &EstimatorDoc, seed: u64) -> Self {
         let path = PathSettings {
@@ -63,7 +65,7 @@ impl Settings {
         Self { mode: doc.mode, sampler: doc.sampler, wavelengths: doc.wavelengths, path, seed }
     }
 
-    /// The same with every axis that an estimator does not use at its default.
+    /// Returns the settings with every axis that the estimator does not use at its default.
     #[inline]
     fn limited_to<E: Estimator>(&self) -> Self {
         Self { path: self.path.limited_to(const { AxisSet::of(E::USES) }), ..*self }
@@ -73,16 +75,16 @@ impl Settings {
 /// One path's estimate of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathEstimate {
-    /// Linear sRGB.
+    /// Estimated radiance in linear sRGB.
     pub rgb: Vec3,
-    /// Evaluations of the medium's coefficients.
+    /// Look-ups in the medium: of its coefficients, and of its temperature for emission.
     pub lookups: u64,
     /// Collisions at which the extinction exceeded the majorant.
     pub exceeded: u64,
 }
 
-/// The kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels, or one
-/// that stands for all of them where nothing has a colour.
+/// Kernel of an estimator that carries a family of components: 4 wavelengths or 3 channels, or a single
+/// component for all of them if the scene is achromatic.
 pub(super) fn family<E: Estimator>(
     scene: &Scene,
     s: &Settings,
@@ -90,7 +92,7 @@ pub(super) fn family<E: Estimator>(
     context: PathContext<'_>,
 ) -> PathEstimate {
     let s = &s.limited_to::<E>();
-    // What leaves components out, leaves the noise of their choice in.
+    // The hero-only heuristic leaves components out and keeps the noise of choosing one.
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
         (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, context),
@@ -100,7 +102,7 @@ pub(super) fn family<E: Estimator>(
     }
 }
 
-/// The kernel of an estimator that carries one component at a time.
+/// Kernel of an estimator that carries one component at a time.
 pub(super) fn single<E: Estimator>(
     scene: &Scene,
     s: &Settings,
@@ -127,7 +129,7 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     }
 }
 
-/// As [`in_medium`], without a kernel for grids of colours: they are never without one.
+/// As [`in_medium`], without a kernel for RGB grids, which are never achromatic.
 fn in_grey_medium<E: Estimator, C: Components<1>>(
     scene: &Scene,
     s: &Settings,
@@ -174,7 +176,7 @@ mod tests {
     use crate::scene::build;
     use crate::transport::CancelToken;
 
-    /// Six by four pixels whose right half looks at a light.
+    /// Six by four pixels whose right half sees a light.
     fn half_lit() -> (Scene, Settings) {
         let doc = scene_file::parse(
             "majorant = 1
@@ -213,7 +215,7 @@ mod tests {
     fn every_pixel_has_random_numbers_of_its_own() {
         let (scene, settings) = half_lit();
         let kernel = find("independent").unwrap().kernel;
-        // Which channel each of 32 paths carries tells the streams apart.
+        // The channels that 32 paths carry distinguish the streams.
         let channels = |x, y| -> Vec<Vec3> {
             (0..32)
                 .map(|sample| {

@@ -1,19 +1,23 @@
-//! Equiangular MIS: Uni+NEE MIS with a third technique that draws distances towards a light.
+//! Equiangular MIS: Uni+NEE MIS with equiangular sampling as a third technique.
 //!
 //! ```text
 //!   each technique adds   Le_j · f_j / ( (1/C) Σ_i (p_uni,i + p_nee,i + p_eq,i) )
 //! ```
 //!
-//! Along every ray of the path a further vertex is drawn with the inverse square of its distance to a light, and
-//! connected to that light; what lies between counts as null, by ratio tracking. The walk goes on from its own vertex.
-//! Costs a second connection per vertex: a path takes 2.3 times as long. Wins where a small light stands in or close to a
-//! thin medium, whose collisions rarely happen where the light is strong: on the embedded lanterns 2.9 times the
-//! efficiency of Uni+NEE MIS. Distant lights have no place, and leave Uni+NEE MIS.
-//! Kulla and Fajardo 2012, section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
+//! Along every ray of the path an additional vertex is drawn, with a density proportional to the inverse
+//! square of its distance to a light, and connected to that light; collisions before it are taken as null
+//! (ratio tracking). The walk continues from its own vertex. Costs a second connection per vertex: a path
+//! takes 2.3 times as long. Wins where a small light is inside or close to a thin medium, whose collisions
+//! are rare where the light is strong: on the embedded lanterns 2.9 times the efficiency of Uni+NEE MIS.
+//! Distant lights have no position, so for them the estimator is Uni+NEE MIS. Kulla and Fajardo 2012,
+//! section 4; in path space, Miller, Georgiev and Jarosz 2019, section 5.2.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 4.2, 22 and 22 look-
-//! ups per path; relMSE 1.0, 0.93 and 0.99 times that of Uni+NEE MIS, in 1.3 to 1.8 of its time: none of these has
-//! a small light close by.
+//! Path weights ([`EquiangularWeights`]) in pbrt-v4's names: `contribution` is `beta`, `uni` is `r_u`, `nee`
+//! is `r_l`; `eq` = p_eq / P is the same quotient for the third technique.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 4.2, 22 and 22
+//! look-ups per path; relMSE 1.0, 0.93 and 0.99 times that of Uni+NEE MIS, in 1.3 to 1.8 of its time. None of
+//! these scenes has a small light close to the medium.
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::{Ray, SideStream};
@@ -30,7 +34,7 @@ const USES: &[Axis] =
 pub(super) const ENTRY: Entry = Entry {
     id: "equiangular-mis",
     name: "Equiangular MIS",
-    summary: "Uni+NEE MIS and distances drawn towards the light; wins for lamps in thin media.",
+    summary: "Uni+NEE MIS with additional distances drawn towards the light; wins for lamps in thin media.",
     reference: "Kulla & Fajardo 2012, section 4; Miller, Georgiev & Jarosz 2019, section 5.2",
     uses: USES,
     infinite_variance: |_| None,
@@ -57,17 +61,18 @@ impl Estimator for EquiangularMis {
         loop {
             let surface = world.nearest_surface(&ray, vertices == 0);
 
-            // The further vertex, and its connection.
+            // The additional vertex and its connection.
             let passage = Passage::through(world.scene, &ray, surface.t());
             if let Some(passage) = &passage
                 && vertices + 1 < world.settings.max_depth
             {
                 trace.tell(move || Note::EquiangularVertex);
-                radiance += by_angle(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
+                radiance +=
+                    equiangular_connection(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
                 trace.tell(move || Note::EquiangularVertexEnds);
             }
 
-            // Fly to the next real event; the weights follow every null collision.
+            // Fly to the next real event; every null collision updates the weights.
             let flight = world.fly_to_event(
                 (&ray, surface.t()),
                 &mut path,
@@ -83,7 +88,7 @@ impl Estimator for EquiangularMis {
                     world.scattering_vertex(point, &ray)
                 }
                 FlightEnd::Exit => {
-                    // The walk has met light. Before the first real vertex only it could have.
+                    // The walk has reached a light, before the first real vertex the only technique that can.
                     for light in world.arrivals(&ray, &surface, vertices == 0) {
                         let (other, value) = match &last {
                             None => (0.0, path.unidirectional(light.radiance, heuristics)),
@@ -125,8 +130,8 @@ impl Estimator for EquiangularMis {
     }
 }
 
-/// What a vertex adds that is drawn towards a light and connected to it.
-fn by_angle<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+/// Contribution of a vertex drawn by equiangular sampling and of its connection to the light.
+fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     passage: &Passage,
     path: EquiangularWeights<N>,

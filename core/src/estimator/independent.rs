@@ -4,13 +4,16 @@
 //!   L ≈ Le · f₁ / p₁
 //! ```
 //!
-//! The path carries a single wavelength (or one of R, G, B), is sampled by that component's own
-//! coefficients, and shares nothing with other components: every weight but the albedo is 1. Simple
-//! and unbiased; but components see different paths, which shows as colour noise (the report's figure 2,
-//! left). Miller, Georgiev and Jarosz 2019, section 5.1.
+//! The path carries a single wavelength (or one of R, G, B), is sampled by the coefficients of that
+//! component, and shares nothing with other components: every weight but the albedo is 1. Simple
+//! and unbiased; but the components have different paths, which shows as colour noise (the report's
+//! figure 2, left). Miller, Georgiev and Jarosz 2019, section 5.1.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 1.2, 2.8 and 2.9 look-
-//! ups per path; relMSE 8, 13 and 4.3 times that of Uni+NEE MIS, in 0.3 to 0.4 of its time.
+//! Path weights ([`PathWeights`]) in pbrt-v4's names: `contribution` is `beta`, here f₁ / p₁. The estimate
+//! uses neither `r_u` (`uni`, which is 1) nor `r_l` (`nee`).
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 1.2, 2.8 and 2.9
+//! look-ups per path; relMSE 8, 13 and 4.3 times that of Uni+NEE MIS, in 0.3 to 0.4 of its time.
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
@@ -45,7 +48,7 @@ impl Estimator for Independent {
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {
-            // Fly to the next real event; null collisions do not turn the path.
+            // Fly to the next real event; null collisions do not change the direction.
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.fly_to_event(
                 (&ray, surface.t()),

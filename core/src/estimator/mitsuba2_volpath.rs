@@ -1,21 +1,25 @@
-//! The report's older baseline: the volumetric path tracer that Mitsuba 2 had before the null-scattering path integral.
+//! The report's older baseline: the volumetric path tracer of Mitsuba 2, before the null-scattering path
+//! integral.
 //!
 //! ```text
 //!   φ = throughput / density, one number per component; at every vertex, with the power heuristic,
 //!   L += φ T Le f_p p_e / (p_e² + p_p²)   along a direction drawn towards a light
-//!   L += φ T Le f_p p_p / (p_p² + p_e²)   along the direction in which the path goes on
+//!   L += φ T Le f_p p_p / (p_p² + p_e²)   along the direction in which the path continues
 //! ```
 //!
-//! Multiple importance sampling happens per bounce: whole paths have no density here. A uniform medium
-//! is flown through by the mean extinction of all components (algorithm 2), and its transmittance is exact. A
-//! heterogeneous one is flown through by delta tracking (algorithm 3), which knows no other component than its own,
-//! and its transmittance is estimated by ratio tracking. **Where the extinction of a heterogeneous medium has
-//! a colour, every path therefore carries one component**, which is what people did by rendering component by
-//! component. Every vertex walks twice towards light and a third time to its successor.
+//! Multiple importance sampling is applied per bounce: whole paths have no density here. In a uniform medium
+//! flights are drawn from the mean extinction of all components (algorithm 2), and the transmittance is
+//! exact. In a heterogeneous medium flights use delta tracking (algorithm 3), which handles one component
+//! only, and the transmittance is estimated by ratio tracking. **Where the extinction of a heterogeneous
+//! medium is chromatic, every path therefore carries one component**, which corresponds to rendering
+//! component by component. Every vertex traces two walks towards lights and a third to the next vertex.
 //! Horešovský's report, algorithms 1–3, appendix A.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 4.1, 25 and 26 look-
-//! ups per path; relMSE 7.5, 1.15 and 1.6 times that of Uni+NEE MIS, in 0.8 to 1.6 of its time.
+//! In pbrt-v4's names, `phi` (φ) is `beta`. There is no `r_u` and no `r_l`: the MIS weights are formed from
+//! the solid angle densities p_e (light sampling) and p_p (phase function or cosine lobe) of a single bounce.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 4.1, 25 and 26
+//! look-ups per path; relMSE 7.5, 1.15 and 1.6 times that of Uni+NEE MIS, in 0.8 to 1.6 of its time.
 
 use super::{
     Axis, Entry, Estimator, Kernel, PathEstimate, PathIndex, Settings, biased_transmittance,
@@ -40,25 +44,26 @@ pub(super) const ENTRY: Entry = Entry {
     kernel: kernel as Kernel,
 };
 
-/// Where components differ, the weight of a thin one is a product of e^((mean − μ) t), which nothing bounds.
+/// Where components differ, the weight of a thin one is a product of factors e^((mean − μ) t), which is
+/// unbounded.
 fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
     let (extinction, _) = doc.medium.extinction_and_albedo(0.0);
     let coloured = is_uniform(doc) && !extinction.is_flat();
-    coloured.then_some("flights by the mean extinction give thin components weights that nothing bounds")
+    coloured.then_some("flights drawn from the mean extinction give thin components unbounded weights")
 }
 
-/// A uniform medium is flown through by closed forms, which ask for no majorant. Delta tracking has no weight for
-/// collisions that exceed one.
+/// Flights through a uniform medium use closed forms and no majorant. Delta tracking has no weight for
+/// collisions at which the extinction exceeds the majorant.
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
     if doc.medium.emission.is_some() {
-        return Some("it knows no light from within the medium");
+        return Some("it does not support light from within the medium");
     }
     if is_uniform(doc) {
         return None;
     }
     let exceeded = doc.medium.majorant.factor < 1.0;
     clamped_majorant(doc)
-        .or(exceeded.then_some("its delta tracking needs a majorant that bounds"))
+        .or(exceeded.then_some("its delta tracking needs a bounding majorant"))
         .or_else(|| biased_transmittance(doc))
 }
 
@@ -93,7 +98,7 @@ impl Estimator for Mitsuba2Volpath {
             let vertex = if let Some(point) = flight.scattered_at {
                 world.scattering_vertex(point, &ray)
             } else {
-                // Light that later segments meet was added when their direction was drawn.
+                // Lights on later segments were added when the direction was drawn.
                 if vertices == 0 {
                     for light in world.arrivals(&ray, &surface, true) {
                         let value = light.radiance * phi;
@@ -121,7 +126,7 @@ impl Estimator for Mitsuba2Volpath {
                 radiance += world.record(Technique::Connection, (aim.radiance, p_p), value, trace);
             }
 
-            // The direction in which the path goes on.
+            // The direction in which the path continues.
             let outgoing = world.sample_outgoing(&vertex, trace);
             ray = Ray { origin: vertex.point(), direction: outgoing.direction };
             let end = world.nearest_surface(&ray, false);

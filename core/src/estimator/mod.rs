@@ -1,5 +1,6 @@
-//! Estimators of light transport, one file each. A line in [`REGISTRY`] adds one: pickers, the
-//! command line, the self-check and the tests iterate it.
+//! Estimators of light transport, one file each.
+//!
+//! A line in [`REGISTRY`] adds one: pickers, the command line, the self-check and the tests iterate over it.
 
 mod axis;
 mod dispatch;
@@ -23,67 +24,68 @@ use crate::spectrum::Components;
 use crate::transmittance::TransmittanceKind;
 use crate::transport::{Trace, World};
 
-/// One estimator as people meet it.
+/// Registry entry of an estimator.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Stable id, for files and the command line.
     pub id: &'static str,
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
-    /// One sentence: what it does and when it wins.
+    /// One sentence on the method and when it wins.
     pub summary: &'static str,
-    /// Where it comes from.
+    /// Source in the literature.
     pub reference: &'static str,
-    /// Choices that change its estimate; every other axis leaves its image as it is, bit by bit.
+    /// Settings that change its estimate; every other axis leaves its image bitwise unchanged.
     pub uses: &'static [Axis],
-    /// Why the variance of its estimate has no bound, if so: its mean is right, and no number of samples shows it.
+    /// Reason why the variance of the estimate is infinite, if it is. The mean is then correct, but no number
+    /// of samples shows it.
     pub infinite_variance: fn(&SceneDoc) -> Option<&'static str>,
-    /// Why its estimate of a document's image is biased, if it is.
+    /// Reason why the estimate of a document's image is biased, if it is.
     pub bias_of: fn(&SceneDoc) -> Option<&'static str>,
-    /// Traces one path.
+    /// Function that traces one path.
     pub kernel: Kernel,
 }
 
 impl Entry {
-    /// Whether a choice changes its estimate.
+    /// Whether a setting changes the estimate.
     #[must_use]
     pub fn uses(&self, axis: Axis) -> bool {
         self.uses.contains(&axis)
     }
 
-    /// Why a choice changes nothing about it, if it does not.
+    /// Reason why a setting has no effect on the estimator; `None` if it has one.
     #[must_use]
     pub fn unused(&self, axis: Axis) -> Option<&'static str> {
         (!self.uses(axis)).then(|| axis.why_unused())
     }
 
-    /// Whether it connects vertices to lights.
+    /// Whether the estimator connects vertices to lights.
     #[must_use]
     pub fn connects(&self) -> bool {
         self.uses(Axis::Lights)
     }
 
-    /// Whether its paths carry several components that share them by a heuristic.
+    /// Whether its paths carry several components, combined by a heuristic.
     #[must_use]
     pub fn carries_family(&self) -> bool {
         self.uses(Axis::Components)
     }
 
-    /// Whether its hero alone draws the events, from the hero's own majorant.
+    /// Whether events are drawn from the hero's densities and majorant only.
     #[must_use]
     pub fn hero_draws(&self) -> bool {
         !self.uses(Axis::Tracking)
     }
 
-    /// Why the estimate of a document's image is biased: by a choice in the document, or because the
-    /// estimator is. `None` means that its expectation is the true image.
+    /// Reason why the estimate of a document's image is biased, by a setting in the document or by the
+    /// estimator itself. `None` means that its expectation is the true image.
     #[must_use]
     pub fn bias(&self, doc: &SceneDoc) -> Option<&'static str> {
         (self.bias_of)(doc)
     }
 }
 
-/// What biases every estimator that samples free flights by a majorant: cutting the medium off at it.
+/// Bias of all estimators that sample free flights from a majorant, due to clamping the extinction at it.
 fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
     let majorant = &doc.medium.majorant;
     match majorant.when_exceeded {
@@ -100,17 +102,18 @@ fn is_uniform(doc: &SceneDoc) -> bool {
     matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none()
 }
 
-/// What biases estimators whose connections may be estimated in any way. Along constant extinction a march is exact.
+/// Bias of estimators with selectable transmittance of connections. Along constant extinction marching is
+/// exact.
 fn biased_transmittance(doc: &SceneDoc) -> Option<&'static str> {
     if is_uniform(doc) {
         return None;
     }
     let kind = TransmittanceKind::find(&doc.estimator.transmittance);
     kind.is_some_and(|kind| !kind.entry().unbiased)
-        .then_some("transmittance is marched by steps of fixed length")
+        .then_some("transmittance is estimated by ray marching with a fixed step")
 }
 
-/// Every estimator, in the order that pickers show.
+/// All estimators, in the order shown by pickers.
 pub static REGISTRY: &[Entry] = &[
     independent::ENTRY,
     spectral_mis::ENTRY,
@@ -121,13 +124,13 @@ pub static REGISTRY: &[Entry] = &[
     mitsuba2_volpath::ENTRY,
 ];
 
-/// The estimator with this id.
+/// Finds the estimator with this id.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Entry> {
     REGISTRY.iter().find(|e| e.id == id)
 }
 
-/// Every problem of a document: those of its scene, and an estimator that does not exist.
+/// Problems of a document: those of its scene and of its estimator settings, including unknown estimators.
 #[must_use]
 pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     let mut problems = scene::validate(doc);
@@ -144,21 +147,20 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
         let problem =
             |key: &str, message: &str| Problem { path: format!("{path}.{key}"), message: message.into() };
         if estimator.heuristics.techniques == Heuristic::HeroOnly {
-            let why = "techniques cannot go without a heuristic: choose balance, power or maximum";
+            let why = "techniques need a heuristic: choose balance, power or maximum";
             problems.push(problem("heuristics.techniques", why));
         }
         if TransmittanceKind::find(&estimator.transmittance).is_none() {
             let known: Vec<_> = TransmittanceKind::all().iter().map(|kind| kind.entry().id).collect();
             let why = format!(
-                "`{}` estimates no transmittance: choose {}",
+                "`{}` is not a transmittance estimator: choose {}",
                 estimator.transmittance,
                 known.join(", ")
             );
             problems.push(problem("transmittance", &why));
         }
         if estimator.bookkeeping == Bookkeeping::Pairwise && estimator.heuristics != Heuristics::default() {
-            let why =
-                "of quotients of pairs only the balance heuristic can be formed: choose rescaled, or balance";
+            let why = "pairwise weights support the balance heuristic only: choose rescaled, or balance";
             problems.push(problem("bookkeeping", why));
         }
     }
@@ -170,13 +172,13 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     problems
 }
 
-/// The contract of an estimator: radiance that arrives along a ray, at the path's components.
+/// Estimator of the radiance that arrives along a ray, at the path's components.
 ///
 /// Its expectation, given that component j is carried at all, is the radiance at component j.
 pub trait Estimator {
-    /// The axes that change its estimate. All others are put to their defaults before a path begins.
+    /// Axes that change the estimate. All others are set to their defaults before a path begins.
     const USES: &'static [Axis];
-    /// Whether flights are drawn from one majorant for all components, that of the largest.
+    /// Whether flights are drawn from one majorant for all components, the largest.
     const SHARED_MAJORANT: bool = false;
 
     /// Traces one path.
@@ -201,14 +203,14 @@ mod tests {
             doc
         };
         for entry in REGISTRY {
-            // A uniform medium has closed forms in the older baseline, which then asks for no majorant.
+            // The older baseline uses closed forms in a uniform medium, and no majorant.
             let uses_majorant = entry.id != "mitsuba2-volpath";
             let clamped = entry.bias(&with(0.5, WhenExceeded::Clamp));
             assert_eq!(clamped.is_some_and(|why| why.contains("clamped")), uses_majorant, "{clamped:?}");
-            // A majorant that bounds is never exceeded.
+            // A bounding majorant is never exceeded.
             assert_eq!(entry.bias(&with(1.0, WhenExceeded::Clamp)), None);
             assert_eq!(entry.bias(&with(0.5, WhenExceeded::Weighted)), None);
-            // Delta tracking has no weights to make up for it.
+            // Delta tracking has no weights to compensate.
             let mut grid = with(0.5, WhenExceeded::Weighted);
             grid.medium.density = DensityDoc::Grid(GridRef { file: "embedded:cloud.vdb".into(), grid: None });
             assert_eq!(entry.bias(&grid).is_some(), entry.id == "mitsuba2-volpath");
@@ -220,7 +222,7 @@ mod tests {
             assert_eq!(
                 entry.bias(&marched),
                 None,
-                "{}: a march through constant extinction is exact",
+                "{}: marching through constant extinction is exact",
                 entry.id
             );
         }

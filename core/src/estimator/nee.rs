@@ -5,12 +5,15 @@
 //! ```
 //!
 //! The walk itself collects light only before its first real vertex, where no connection can be made;
-//! afterwards light that it meets is ignored, as connections account for it. Good for small lights
+//! afterwards lights that it reaches are ignored, as connections account for them. Good for small lights
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and 14.2
-//! look-ups per path; relMSE 1.05, 1.9 and 450 times that of Uni+NEE MIS, in about its time.
+//! Path weights ([`PathWeights`]) in pbrt-v4's names: `contribution` is `beta`, `nee` is `r_l`; a connection
+//! is divided by the mean of `r_l` over heroes. `uni` is `r_u`, used only before the first real vertex.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and
+//! 14.2 look-ups per path; relMSE 1.05, 1.9 and 450 times that of Uni+NEE MIS, in about its time.
 
 use super::{Axis, Entry, Estimator, biased_transmittance, clamped_majorant, dispatch};
 use crate::math::Ray;
@@ -59,7 +62,7 @@ impl Estimator for Nee {
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {
-            // Fly to the next real event; the weights follow every null collision.
+            // Fly to the next real event; every null collision updates the weights.
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.fly_to_event(
                 (&ray, surface.t()),
@@ -74,7 +77,7 @@ impl Estimator for Nee {
                 FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
                 FlightEnd::Exit => {
                     if vertices == 0 {
-                        // No real vertex yet: only the walk can find this light.
+                        // No real vertex yet: only the walk can reach this light.
                         for light in world.arrivals(&ray, &surface, true) {
                             let value = path.unidirectional(light.radiance, heuristics);
                             radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);

@@ -4,14 +4,17 @@
 //!   L_j ≈ Le_j · f_j / ( (1/C) Σ_i p_uni,i )
 //! ```
 //!
-//! The hero drives every decision; the other components ride along, weighted by how likely each of
-//! them would have made the same path. Analytic path densities, null collisions included, are what
-//! makes this possible in heterogeneous media. Good where the phase function finds the light: large
-//! lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
+//! The hero determines every decision; the other components are carried along, weighted by the density with
+//! which each of them would have made the same path. This works in heterogeneous media because path
+//! densities, including null collisions, are known analytically. Good where the phase function finds the
+//! light: large lights, forward scattering (the report's figure 3, upper row); removes the colour noise of
 //! independent tracking (figure 2). Miller, Georgiev and Jarosz 2019, section 5.1; Wilkie et al. 2014.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 1.2, 2.8 and 2.9 look-
-//! ups per path; relMSE 1.3, 4.3 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.5 of its time.
+//! Path weights ([`PathWeights`]) in pbrt-v4's names: `contribution` is `beta`, `uni` is `r_u`; a path is
+//! divided by the mean of `r_u` over heroes. `r_l` (`nee`) is not used.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 1.2, 2.8 and 2.9
+//! look-ups per path; relMSE 1.3, 4.3 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.5 of its time.
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
@@ -47,7 +50,7 @@ impl Estimator for SpectralMis {
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {
-            // Fly to the next real event; the weights follow every null collision.
+            // Fly to the next real event; every null collision updates the weights.
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.fly_to_event(
                 (&ray, surface.t()),
@@ -61,7 +64,7 @@ impl Estimator for SpectralMis {
                 FlightEnd::Absorption => return radiance,
                 FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
                 FlightEnd::Exit => {
-                    // The path has reached light: this is the only technique that makes it.
+                    // The walk has reached a light; no other technique can make this path.
                     for light in world.arrivals(&ray, &surface, vertices == 0) {
                         let value = path.unidirectional(light.radiance, heuristics);
                         radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);

@@ -1,19 +1,22 @@
-//! Spectral tracking: one path for all components, drawn for none of them in particular.
+//! Spectral tracking: one path shared by all components, without a hero.
 //!
 //! ```text
 //!   L_j ≈ Le_j · Π_k  e_j(x_k) / ( μ̄ P_e(x_k) ),      P_e in proportion to max_i e_i, mean_i e_i or mean_i |w_i e_i|
 //! ```
 //!
-//! Flights are drawn from the majorant of the densest component, events from probabilities that look at all
-//! components; each component's weight w_j then follows what was drawn. No density of the path is ever formed, so
-//! nothing can be combined by multiple importance sampling: the forerunner and main competitor of spectral
-//! MIS. With the history in the probabilities weights stay bounded, at the price of a look at every component per event.
-//! Wins over hero wavelengths where components differ little; loses where one is far denser, as all of
-//! them then pay for its collisions. Kutz, Habel, Li and Novák 2017, "Spectral and decomposition tracking for rendering
-//! heterogeneous volumes", section 5.1, algorithm 4.
+//! Flights are drawn from the majorant of the densest component, events from probabilities that depend on all
+//! components; each component's weight w_j is then updated by the event that was drawn. Path densities are
+//! not formed, so techniques cannot be combined by multiple importance sampling: the precursor and main
+//! competitor of spectral MIS. With the history in the probabilities weights stay bounded, at the cost of
+//! evaluating every component per event. Wins over hero wavelengths where components differ little; loses
+//! where one is far denser, as all components then pay for its collisions. Kutz, Habel, Li and Novák 2017,
+//! "Spectral and decomposition tracking for rendering heterogeneous volumes", section 5.1, algorithm 4.
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.4, 2.8 and 2.9 look-
-//! ups per path; relMSE 0.87, 3.9 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.7 of its time.
+//! Path weights ([`PathWeights`]) in pbrt-v4's names: `contribution` is `beta`, the weights w_j of the paper.
+//! `r_u` (`uni`) stays 1, and `r_l` (`nee`) is not used.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.4, 2.8 and 2.9
+//! look-ups per path; relMSE 0.87, 3.9 and 1.0 times that of Uni+NEE MIS, in 0.3 to 0.7 of its time.
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
@@ -38,11 +41,11 @@ pub(super) const ENTRY: Entry = Entry {
     kernel: dispatch::family::<SpectralTracking>,
 };
 
-/// Probabilities by the largest components sum to more than one before they are normalised: each event may raise the
-/// weights, and nothing bounds how often.
+/// Probabilities by the largest component sum to more than one before normalisation, so that each event may
+/// increase the weights, and the number of such events is unbounded.
 fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
     let by_largest = doc.estimator.tracking == Tracking::Maximum;
-    by_largest.then_some("drawn by the largest component, weights may grow at every event")
+    by_largest.then_some("events drawn by the largest component may increase the weights without bound")
 }
 
 pub(super) struct SpectralTracking;
@@ -60,7 +63,7 @@ impl Estimator for SpectralTracking {
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
         loop {
-            // Fly to the next real event; the weights follow every event.
+            // Fly to the next real event; every event updates the weights.
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.fly_to_event(
                 (&ray, surface.t()),
@@ -97,7 +100,8 @@ impl Estimator for SpectralTracking {
     }
 }
 
-/// Draws the event at a collision from densities of all components, and divides each component's weight by what was drawn.
+/// Draws the event at a collision from densities of all components and divides the weights by the density
+/// drawn.
 fn draw_for_all<const N: usize>(
     settings: &PathSettings,
     path: &mut PathWeights<N>,

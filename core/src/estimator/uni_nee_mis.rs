@@ -7,12 +7,23 @@
 //!
 //! Wavelengths are a one-sample family (hence the mean), techniques a two-sample family (hence the
 //! sum). p_uni has the phase function's density at the last vertex, p_nee the light's, never both. The
-//! continuing walk *is* the unidirectional sample: if it meets light without another real event, it
-//! adds it. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019, section 5.2;
-//! the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
+//! continuing walk *is* the unidirectional sample: if it reaches a light without another real event, it
+//! adds the contribution. Robust in both extremes of the report's figure 3. Miller, Georgiev and Jarosz 2019,
+//! section 5.2; the report's algorithms 4–6, without the misprints of 4 (lines 14, 17 and 19).
 //!
-//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and 14.2
-//! look-ups per path; relMSE what the other estimators' files are relative to.
+//! Path weights in pbrt-v4's names, `beta`, `r_u`, `r_l`, by form (P: density of the technique that made the
+//! path):
+//!
+//! | form | `beta` = f / P | `r_u` = p_uni / P | `r_l` = p_nee / P |
+//! | --- | --- | --- | --- |
+//! | rescaled (`PathWeights`) | `contribution` | `uni` | `nee` |
+//! | apart (`WeightsApart`) | `f` / P | `uni` / P | `nee` / P |
+//! | pairwise (`WeightsPairwise`) | – | `uni[i][j]` · `beta[j]` | `nee[i][j]` · `beta[j]` |
+//!
+//! The denominator of the formula, divided by P, is the mean of `r_u` + `r_l` over heroes.
+//!
+//! Measured on the embedded plume, side-lit and back-lit cloud (96 × 96 pixels, 32 samples): 2.7, 13.9 and
+//! 14.2 look-ups per path; relMSE and time are the reference for the other estimators' figures.
 
 use super::{Axis, Entry, Estimator, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
 use crate::math::{Ray, SideStream};
@@ -50,15 +61,15 @@ pub(super) const ENTRY: Entry = Entry {
 
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
     if doc.estimator.fault != Fault::None {
-        return Some("a fault is planted in it");
+        return Some("a fault is planted in its path weights");
     }
     if doc.estimator.bookkeeping == Bookkeeping::ApartF32 {
-        return Some("f and p in single precision overflow on long paths, which are lost");
+        return Some("f and p in single precision overflow on long paths, whose contributions are lost");
     }
     clamped_majorant(doc)
 }
 
-/// One kernel for every way to keep the books.
+/// Selects the kernel for the form of the path weights.
 fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     let kernel = match settings.path.bookkeeping {
         _ if settings.path.fault != Fault::None => dispatch::family::<UniNeeMis<Faulty>>,
@@ -86,7 +97,7 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
         let mut last: Option<Vertex> = None;
         let mut vertices = 0;
         loop {
-            // Fly to the next real event; the weights follow every null collision.
+            // Fly to the next real event; every null collision updates the weights.
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.fly_to_event(
                 (&ray, surface.t()),
@@ -100,7 +111,7 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
                 FlightEnd::Absorption => return radiance,
                 FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
                 FlightEnd::Exit => {
-                    // The walk has met light. Before the first real vertex only it could have.
+                    // The walk has reached a light, before the first real vertex the only technique that can.
                     if last.is_none() || world.settings.light_walk == LightWalk::Fused {
                         world.add_light_on_ray(last.as_ref(), &ray, &surface, &path, &mut radiance, trace);
                     }
@@ -133,7 +144,7 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
     }
 }
 
-/// Adds what a walk of its own along a ray meets, if nothing real happens on its way.
+/// Adds the lights that a separate walk along the ray reaches, if it has no real event before them.
 fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     vertex: &Vertex,

@@ -1,31 +1,33 @@
-//! A figure as one picture, laid out as in the report: rows of panels with what they are above them, what they
-//! measure below, and a caption.
+//! Composition of a figure as one image, laid out as in the report: rows of panels with labels above and
+//! measurements below, and a caption.
 
+use super::FiguresError;
 use super::figure::{Cell, Figure};
 use super::render::Rendered;
 use super::text::Typeface;
 use crate::compare::View;
-use crate::compare::report::{self, words};
+use crate::compare::report::{self, ReportError, encode_png, words};
 use crate::scene::ViewDoc;
 use image::imageops::{self, FilterType};
 use image::{Rgb, RgbImage};
+use std::path::Path;
 
 const MARGIN: u32 = 14;
 const GUTTER: u32 = 10;
 const LABEL: f32 = 15.0;
 const SMALL: f32 = 13.0;
-/// From one line of small print to the next.
+/// Line height of small print.
 const LEADING: u32 = 18;
-/// Pictures are magnified by whole numbers until they are at least this wide, so that their labels fit.
+/// Minimum width of an image, reached by integer magnification, so that its label fits.
 const LEAST_WIDTH: u32 = 190;
 
-/// A picture as shown, in display colours.
+/// Tone-mapped image of a view in display colours.
 pub(super) fn picture(view: &View, tone: &ViewDoc) -> RgbImage {
     let (width, height) = (view.snapshot.width as u32, view.snapshot.height as u32);
     RgbImage::from_raw(width, height, report::rgb(&view.snapshot.mean, tone)).unwrap_or_default()
 }
 
-/// What stands above, the picture, and what stands below.
+/// An image with its label above and its note below.
 pub(super) struct Placed {
     pub label: String,
     pub image: RgbImage,
@@ -33,7 +35,7 @@ pub(super) struct Placed {
 }
 
 impl Rendered {
-    /// The cells of a row, from the left.
+    /// Cells of a row, from the left.
     pub(super) fn cells(&self) -> Vec<Placed> {
         let numbers = self.numbers();
         let placed = |cell: &Cell| {
@@ -53,7 +55,7 @@ impl Rendered {
     }
 }
 
-/// Lays a figure out.
+/// Composes a figure.
 pub(super) fn compose(figure: &Figure, rows: &[Rendered]) -> RgbImage {
     let face = Typeface::new();
     let rows: Vec<Vec<Placed>> = rows.iter().map(|r| magnified(r.cells())).collect();
@@ -97,4 +99,10 @@ fn magnified(mut row: Vec<Placed>) -> Vec<Placed> {
         }
     }
     row
+}
+
+/// Encodes an image as PNG.
+pub(super) fn png(image: &RgbImage) -> Result<Vec<u8>, FiguresError> {
+    let size = (image.width() as usize, image.height() as usize);
+    Ok(encode_png(image.as_raw(), size).map_err(|e| ReportError::write(Path::new("an image"), e))?)
 }

@@ -1,4 +1,4 @@
-//! Why figures could not be made.
+//! Errors of figures and study.
 
 use crate::bench::BenchError;
 use crate::compare::RunError;
@@ -7,60 +7,60 @@ use crate::io::export::ExportError;
 use crate::io::scene_file::SceneFileError;
 use crate::io::volume::VolumeError;
 
-/// Why figures could not be made.
+/// Reason why figures could not be rendered.
 #[derive(Debug, thiserror::Error)]
 pub enum FiguresError {
-    /// A figure asks for a scene that is not part of the program.
+    /// A figure needs a scene that is not embedded.
     #[error("figure {figure} needs the embedded scene `{scene}`, which this program lacks")]
     NoScene {
-        /// The figure's strip.
+        /// Strip of the figure.
         figure: &'static str,
-        /// The scene.
+        /// Name of the scene.
         scene: &'static str,
     },
     /// A setting does not fit its scene.
     #[error(transparent)]
     Scene(#[from] SceneFileError),
-    /// A document that cannot be rendered.
+    /// The document is invalid.
     #[error("{figure}: {problem}")]
     Invalid {
-        /// The figure's strip.
+        /// Strip of the figure.
         figure: &'static str,
-        /// What makes no sense.
+        /// Fault of the document.
         problem: crate::scene::Problem,
     },
-    /// A person's own volume cannot be read.
+    /// The user's volume cannot be read.
     #[error(transparent)]
     Volume(#[from] VolumeError),
-    /// A volume of the program cannot be read.
+    /// An embedded volume cannot be read.
     #[error(transparent)]
     Resource(#[from] crate::scene::ResourceError),
-    /// A person's own volume holds colours.
+    /// The user's volume has several channels.
     #[error("{file}: {channels} values per voxel; the figures need a density, one value per voxel")]
     Colour {
-        /// The file.
+        /// File name.
         file: String,
         /// Values per voxel.
         channels: usize,
     },
-    /// A person's own volume holds nothing.
-    #[error("{file}: the density is 0 everywhere; choose a volume that holds something")]
+    /// The user's volume is empty.
+    #[error("{file}: the density is 0 everywhere; choose a volume that is not empty")]
     Empty {
-        /// The file.
+        /// File name.
         file: String,
     },
-    /// A person's own volume is not needed.
-    #[error("--volume {file}: no figure that was asked for has such a volume")]
+    /// The user's volume is not needed.
+    #[error("--volume {file}: no figure of those requested uses such a volume")]
     Unused {
-        /// The file.
+        /// File name.
         file: String,
     },
     /// Panels could not be rendered.
     #[error("{figure}: {source}")]
     Render {
-        /// The figure's strip.
+        /// Strip of the figure.
         figure: &'static str,
-        /// What happened.
+        /// Cause.
         source: RunError,
     },
     /// The study could not be run.
@@ -69,7 +69,7 @@ pub enum FiguresError {
     /// A file could not be written.
     #[error(transparent)]
     Write(#[from] ReportError),
-    /// A picture could not be written.
+    /// An image could not be written.
     #[error(transparent)]
     Export(#[from] ExportError),
 }

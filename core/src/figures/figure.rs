@@ -1,62 +1,62 @@
-//! What a figure is made of.
+//! Definition of a figure: strips, panels and layout.
 
 use super::options::Stage;
 
-/// What all panels of the report have in common, and this program's scenes do not: absorption is an event, the
-/// hero's wavelength is uniform, one majorant bounds the whole medium.
+/// Settings that all panels of the report share and that differ from this program's scenes: analogue
+/// absorption, uniform hero wavelengths, and one majorant for the whole medium.
 pub(super) const REPORT: &[&str] =
     &["estimator.absorption=analogue", "estimator.wavelengths=uniform", "medium.majorant.resolution=1"];
 
 /// A figure of the report.
 #[derive(Clone, Copy, Debug)]
 pub struct Figure {
-    /// Its number there.
+    /// Number in the report.
     pub id: &'static str,
-    /// What it is about, in a few words.
+    /// Subject in a few words.
     pub title: &'static str,
-    /// What to see in it.
+    /// Description of the result.
     pub shows: &'static str,
-    /// Its rows, from the top.
+    /// Rows, from the top.
     pub strips: &'static [Strip],
 }
 
-/// A row of pictures of one scene.
+/// A row of images of one scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Strip {
-    /// How it is called in files and tables.
+    /// Name in files and tables.
     pub name: &'static str,
-    /// The embedded scene.
+    /// Name of the embedded scene.
     pub scene: &'static str,
-    /// The scene in a few words.
+    /// Description of the scene in a few words.
     pub about: &'static str,
-    /// Whose volume stands in it, where a person's own can take its place.
+    /// Kind of volume in the scene, if the user's own can replace it.
     pub stage: Option<Stage>,
-    /// Columns and rows of every picture, unless another size is asked for: in the proportion of the scene, small
-    /// enough that all figures and the study take minutes.
+    /// Default columns and rows of every image, in the aspect ratio of the scene and small enough that all
+    /// figures and the study take minutes.
     pub size: [u32; 2],
-    /// What is rendered with few samples and has numbers.
+    /// Panels, rendered with few samples and measured.
     pub panels: &'static [Panel],
-    /// What they are held against, rendered with many samples.
+    /// Reference for the panels, rendered with many samples.
     pub reference: Panel,
-    /// What is shown, from the left.
+    /// Cells in display order, from the left.
     pub cells: &'static [Cell],
 }
 
-/// One picture.
+/// One image.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
-    /// What stands above it.
+    /// Label above the image.
     pub label: &'static str,
-    /// The estimator's id.
+    /// Estimator id.
     pub estimator: &'static str,
-    /// Settings that differ from the report's; for a reference from the scene's.
+    /// Settings that differ from those of the report; for a reference, from those of the scene.
     pub set: &'static [&'static str],
 }
 
-/// A place in the layout.
+/// A position in the layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cell {
-    /// A panel, by its number from 0.
+    /// A panel, by index from 0.
     Panel(usize),
     /// The reference.
     Reference,

@@ -1,4 +1,4 @@
-//! Figure 1: what the new integrator is for.
+//! Figure 1: a chromatic medium rendered with the new integrator.
 
 use super::figure::{Cell, Figure, Panel, Strip};
 use super::options::Stage;
@@ -6,9 +6,10 @@ use super::options::Stage;
 pub(super) const FIGURE: Figure = Figure {
     id: "1",
     title: "A chromatic heterogeneous medium",
-    shows: "Smoke whose extinction depends on wavelength, by Uni+NEE MIS with hero wavelengths: no path density is \
-            unknown, so both techniques and all wavelengths share every path. The report does not say how many \
-            samples its picture has; here it has the references' many, and the numbers are those of few.",
+    shows: "Smoke whose extinction depends on wavelength, rendered by Uni+NEE MIS with hero wavelengths: every path \
+            density is known, so that both techniques and all wavelengths share every path. The report does not \
+            state the number of samples of its image; here it has that of the references, and the measurements are \
+            of an image with few samples.",
     strips: &[Strip {
         name: "figure1",
         scene: "first-light",

@@ -1,4 +1,4 @@
-//! Figure 3: two scenes in which one technique fails each, and the combination in neither.
+//! Figure 3: two scenes in which one technique each has high variance, and their combination in neither.
 
 use super::figure::{Cell, Figure, Panel, Strip};
 use super::options::Stage;
@@ -34,7 +34,8 @@ pub(super) const FIGURE: Figure = Figure {
             stage: Some(Stage::Cloud),
             size: [256, 192],
             panels: PANELS,
-            // The report's estimator; where it draws directions from changes the noise only, by seven times.
+            // The estimator of the report; its choice of directions changes only the noise, by a factor of
+            // seven.
             reference: Panel {
                 label: "Reference (NEE)",
                 estimator: "nee",

@@ -1,17 +1,17 @@
-//! Figure 4: what it costs to end paths at absorption.
+//! Figure 4: variance of analogue absorption.
 
 use super::figure::{Cell, Figure, Panel, Strip};
 
 pub(super) const FIGURE: Figure = Figure {
     id: "4",
     title: "The noise of absorption",
-    shows: "A homogeneous medium, so that no null collisions are in the way; both pictures are unidirectional, with \
-            as many samples. On the left every path is kept and weighted by the albedo, as in the older integrator; \
-            on the right paths end where absorption is drawn, as in the report's new one.",
+    shows: "A homogeneous medium, so that there are no null collisions. Both images are unidirectional, with the \
+            same number of samples. On the left every path is kept and weighted by the albedo, as in the older \
+            integrator; on the right absorption terminates paths, as in the new integrator of the report.",
     strips: &[Strip {
         name: "figure4",
         scene: "homogeneous-absorption",
-        about: "homogeneous cube that absorbs",
+        about: "homogeneous absorbing cube",
         stage: None,
         size: [192, 192],
         panels: &[
@@ -22,7 +22,7 @@ pub(super) const FIGURE: Figure = Figure {
             },
             Panel { label: "Absorption as an event", estimator: "spectral-mis", set: &[] },
         ],
-        // The report has none; numbers need one.
+        // The report has none; the measurements need one.
         reference: Panel { label: "Reference (Uni+NEE MIS)", estimator: "uni-nee-mis", set: &[] },
         cells: &[Cell::Panel(0), Cell::Panel(1)],
     }],

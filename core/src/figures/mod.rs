@@ -1,4 +1,4 @@
-//! The report's figures, rendered again, and the study that it leaves to future work.
+//! Reproduction of the figures of the report, and the study that it leaves to future work.
 //!
 //! ```text
 //!   Figure (scene, panels, layout) ──► Rendered (panels, reference, numbers) ──┬─► PNG, EXR, figures.csv
@@ -6,9 +6,9 @@
 //!                                                  └─► conclusion, from the numbers alone
 //! ```
 //!
-//! One figure is one file and one line of [`FIGURES`]; one line of [`study::VARIANTS`] adds a contestant, one of
-//! [`study::TOPICS`] a comparison of two. "The report" is Jan Horešovský, "Implementing null-scattering path
-//! integral formulation in Mitsuba 2" (semester project, EPFL).
+//! A new figure is one file and one line of [`FIGURES`]; a new variant is one line of [`study::VARIANTS`], a
+//! new comparison of two variants one line of [`study::TOPICS`]. "The report" is Jan Horešovský,
+//! "Implementing null-scattering path integral formulation in Mitsuba 2" (semester project, EPFL).
 
 mod compose;
 mod error;
@@ -22,6 +22,7 @@ mod options;
 mod page;
 mod plan;
 mod render;
+mod results;
 mod run;
 pub mod study;
 mod text;
@@ -33,12 +34,13 @@ pub use figure::{Cell, Figure, Panel, Strip};
 pub use numbers::PanelNumbers;
 pub use options::{Options, OwnVolume, Stage, StudyOptions};
 pub use render::{Rendered, render};
-pub use run::{Progress, Results, run};
+pub use results::Results;
+pub use run::{Progress, run};
 
-/// Every figure of the report, in its order.
+/// All figures of the report, in its order.
 pub static FIGURES: &[Figure] = &[figure1::FIGURE, figure2::FIGURE, figure3::FIGURE, figure4::FIGURE];
 
-/// The figure of this number.
+/// Figure with the given number.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Figure> {
     FIGURES.iter().find(|figure| figure.id == id)

@@ -1,38 +1,38 @@
-//! What is told of a panel.
+//! Measurements of a panel.
 
 use super::render::Rendered;
 use crate::compare::{self, Standing, report};
 use serde::Serialize;
 
-/// A panel's numbers: the line of a comparison's table, and what a figure adds to it. As JSON every field is a key;
-/// what is not finite is null.
+/// Measurements of a panel: a row of the ranking with additional fields. Every field is a key of the JSON
+/// output; non-finite values are null.
 #[derive(Clone, Debug, Serialize)]
 pub struct PanelNumbers {
-    /// The row of the figure.
+    /// Row of the figure.
     pub strip: &'static str,
-    /// What stands above the picture.
+    /// Label above the image.
     pub panel: &'static str,
-    /// Settings that make it differ from the figure's others.
+    /// Settings that differ from those of the figure.
     pub set: &'static [&'static str],
-    /// Cost, noise, error, verdict.
+    /// Cost, noise, error and verdict.
     #[serde(flatten)]
     pub row: report::Row,
     /// Standard error of the relative mean squared error.
     pub relmse_error: f64,
-    /// Root mean squared error, without what the reference's noise adds to it.
+    /// Root mean squared error, corrected for the noise of the reference.
     pub rmse: f64,
-    /// Its standard error.
+    /// Standard error of `rmse`.
     pub rmse_error: f64,
     /// Standard error of the variance.
     pub variance_error: f64,
-    /// Its picture as shown.
+    /// File of the tone-mapped image.
     pub png: String,
-    /// Its picture in linear radiance, with standard errors and the scene that repeats it.
+    /// File of the linear image, with standard errors and the scene that reproduces it.
     pub exr: String,
 }
 
 impl Rendered {
-    /// The numbers of every panel.
+    /// Measurements of every panel.
     #[must_use]
     pub fn numbers(&self) -> Vec<PanelNumbers> {
         let rows = report::of_standings(&self.experiment, &self.standings);
@@ -58,7 +58,7 @@ impl Rendered {
             .collect()
     }
 
-    /// The name of a panel's files, without their ending.
+    /// Name of the files of a panel, without extension.
     pub(super) fn file(&self, panel: usize) -> String {
         let letter = compare::label(panel).to_lowercase();
         let estimator = self.strip.panels.get(panel).map_or("", |p| p.estimator);
@@ -66,7 +66,7 @@ impl Rendered {
     }
 }
 
-/// A measure with its standard error, without what the reference adds.
+/// An error, corrected for the noise of the reference, with its standard error.
 fn measured(standing: &Standing, id: &str) -> (f64, f64) {
     standing.error(id).map_or((f64::NAN, f64::NAN), |m| (m.corrected(), m.error))
 }

@@ -1,23 +1,23 @@
-//! What can be chosen.
+//! Options of figures and study.
 
 use std::path::PathBuf;
 
-/// How figures and study are made.
+/// Options of figures and study.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Samples per pixel of panels; the report's are 64.
+    /// Samples per pixel of panels; the report uses 64.
     pub spp: u64,
-    /// Samples per pixel of references; the report's are 1024.
+    /// Samples per pixel of references; the report uses 1024.
     pub reference_spp: u64,
-    /// Columns and rows of every picture, instead of each figure's own.
+    /// Columns and rows of every image; `None` for those of each figure.
     pub size: Option<[u32; 2]>,
-    /// Worker threads; one per core if absent.
+    /// Worker threads; `None` for one per core.
     pub threads: Option<usize>,
-    /// Volumes that take the place of the embedded ones.
+    /// Volumes that replace the embedded ones.
     pub volumes: Vec<OwnVolume>,
-    /// The study; none if absent.
+    /// Options of the study; `None` to skip it.
     pub study: Option<StudyOptions>,
-    /// The command that made it, if it was one.
+    /// Command line that was used, if there was one.
     pub command: Option<String>,
 }
 
@@ -35,12 +35,12 @@ impl Default for Options {
     }
 }
 
-/// How long and how often each contestant of the study is run.
+/// Duration and number of the runs of each variant in the study.
 #[derive(Clone, Copy, Debug)]
 pub struct StudyOptions {
     /// Wall-clock seconds of a run.
     pub seconds: f64,
-    /// Runs, at least 2.
+    /// Number of runs, at least 2.
     pub repeats: u32,
 }
 
@@ -50,26 +50,26 @@ impl Default for StudyOptions {
     }
 }
 
-/// Whose volume stands in a figure.
+/// Kind of volume in a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Our plume, where the report has OpenVDB's smoke: figures 1 and 2.
+    /// The embedded plume, in place of the report's OpenVDB smoke: figures 1 and 2.
     Plume,
-    /// Our cloud, where the report has OpenVDB's bunny cloud: figure 3.
+    /// The embedded cloud, in place of the report's OpenVDB bunny cloud: figure 3.
     Cloud,
 }
 
-/// A volume that takes the place of an embedded one.
+/// A volume that replaces an embedded one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OwnVolume {
-    /// Which one; both if absent.
+    /// Kind of volume that it replaces; `None` for both.
     pub stage: Option<Stage>,
-    /// The file.
+    /// File name.
     pub file: PathBuf,
 }
 
 impl Options {
-    /// The file that takes the place of a figure's volume; the last that fits.
+    /// The last volume that replaces that of a figure, if any.
     #[must_use]
     pub fn volume(&self, stage: Option<Stage>) -> Option<&OwnVolume> {
         let stage = stage?;

@@ -1,8 +1,8 @@
-//! The page that shows figures and study: one HTML file that needs nothing else.
+//! HTML page of figures and study: one self-contained file.
 
-use super::run::Results;
+use super::compose::png;
+use super::results::Results;
 use super::study::{Matrix, SceneStudy, name};
-use super::write::png;
 use super::{FiguresError, Options};
 use crate::bench::Row;
 use crate::compare::report::{ReportError, words};
@@ -11,14 +11,14 @@ use minijinja::Environment;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The page with its style; every value that goes into it is escaped.
+/// Template with style; every inserted value is escaped.
 const TEMPLATE: &str = include_str!("../../../assets/figures.html");
 
-/// The page as text.
+/// Renders the page.
 pub(super) fn render(results: &Results, options: &Options) -> Result<String, FiguresError> {
     let failed = |e: minijinja::Error| ReportError::write(Path::new("index.html"), format!("{e:#}"));
     let mut environment = Environment::new();
-    // The ending of the name is what turns escaping on.
+    // The extension of the template name enables escaping.
     environment.add_template("figures.html", TEMPLATE).map_err(failed)?;
     let context = minijinja::Value::from(minijinja::value::Serde(context(results, options)?));
     Ok(environment.get_template("figures.html").and_then(|t| t.render(context)).map_err(failed)?)
@@ -77,7 +77,7 @@ fn context(results: &Results, options: &Options) -> Result<Value, FiguresError> 
     }))
 }
 
-/// Ratios by topic; a cell's class is what it means.
+/// Ratios by topic; the CSS class of a cell is its outcome.
 fn matrix(matrix: &Matrix) -> Value {
     let blocks = matrix.blocks.iter().map(|(heading, lines)| {
         let lines = lines.iter().map(|line| {

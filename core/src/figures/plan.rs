@@ -1,4 +1,4 @@
-//! Documents of what a figure renders.
+//! Documents that a figure renders.
 
 use super::figure::{Panel, REPORT, Strip};
 use super::{FiguresError, Options, volume};
@@ -7,10 +7,10 @@ use crate::io::{embedded, scene_file};
 use crate::scene::{CompareDoc, Fairness, Limits, SceneDoc};
 
 impl Strip {
-    /// The scene with its own settings, at the size and with the volume that were asked for.
+    /// The scene with its own settings, at the requested size and with the requested volume.
     ///
     /// # Errors
-    /// When the scene is missing, or the size or volume makes no sense.
+    /// When the scene is missing, or the size or volume is invalid.
     pub fn scene_doc(&self, options: &Options) -> Result<SceneDoc, FiguresError> {
         let (figure, scene) = (self.name, self.scene);
         let found = embedded::find(scene).ok_or(FiguresError::NoScene { figure, scene })?;
@@ -27,10 +27,10 @@ impl Strip {
         }
     }
 
-    /// The panels as views of one scene, with the report's settings and random numbers of their own.
+    /// The panels as views of one scene, with the settings of the report and a different seed each.
     ///
     /// # Errors
-    /// When a setting does not fit.
+    /// When a setting does not apply.
     pub fn panels_doc(&self, scene: &SceneDoc, options: &Options) -> Result<SceneDoc, FiguresError> {
         let mut docs = self.panels.iter().map(|panel| with(scene, panel, REPORT));
         let mut doc = docs.next().transpose()?.unwrap_or_else(|| scene.clone());
@@ -44,13 +44,13 @@ impl Strip {
         Ok(doc)
     }
 
-    /// The reference: with the scene's own settings, which have the same expectation and less noise, and with
-    /// random numbers that no panel has.
+    /// The reference, with the settings of the scene, which have the same expectation and less noise, and
+    /// with random numbers that no panel uses.
     ///
     /// # Errors
-    /// When a setting does not fit.
+    /// When a setting does not apply.
     pub fn reference_doc(&self, scene: &SceneDoc, options: &Options) -> Result<SceneDoc, FiguresError> {
-        /// Far from those of panels and of the study.
+        /// Seed far from those of panels and study.
         const SEED: u64 = 0x5eed_0000;
         let mut doc = with(scene, &self.reference, &["estimator.absorption=weighted"])?.unbiased();
         doc.render.seed = SEED;
@@ -59,7 +59,7 @@ impl Strip {
     }
 }
 
-/// A scene with a panel's estimator, the settings of `first`, and then its own.
+/// A scene with the estimator of a panel, the settings of `first`, and then those of the panel.
 fn with(scene: &SceneDoc, panel: &Panel, first: &[&str]) -> Result<SceneDoc, FiguresError> {
     let mut edits = vec![format!("estimator.id={:?}", panel.estimator)];
     edits.extend(first.iter().chain(panel.set).map(|edit| (*edit).to_owned()));
@@ -89,7 +89,7 @@ mod tests {
                 assert_eq!((entry.bias(doc), doc.render.spp), (None, Some(64)), "{}", strip.name);
                 assert_eq!(doc.estimator.wavelengths, WavelengthSampling::Uniform);
                 assert_eq!(doc.medium.majorant.resolution, Some(1));
-                // The same image: what they are held against is what they converge to.
+                // Panels and reference converge to the same image.
                 assert_eq!(doc.target_part(), reference.target_part(), "{}", strip.name);
                 assert_ne!(doc.render.seed, reference.render.seed);
             }
@@ -98,7 +98,7 @@ mod tests {
                 Cell::Panel(panel) => *panel < strip.panels.len(),
                 Cell::Reference => true,
             }));
-            // Pictures keep the proportions of the scene.
+            // Images keep the aspect ratio of the scene.
             let full = crate::io::embedded::find(strip.scene).unwrap();
             let film = crate::io::scene_file::parse(full.toml, strip.scene).unwrap().film;
             assert_eq!(strip.size[0] * film.height, strip.size[1] * film.width, "{}", strip.name);

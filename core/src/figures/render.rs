@@ -1,4 +1,4 @@
-//! Renders a row of a figure: its panels, and what they are held against.
+//! Rendering of a row of a figure: its panels and their reference.
 
 use super::{FiguresError, Options, Strip};
 use crate::compare::{self, Experiment, Finished, Reference, Standing, View};
@@ -7,28 +7,28 @@ use crate::measure;
 use crate::scene::SceneDoc;
 use std::sync::Arc;
 
-/// A row of a figure at its end.
+/// A rendered row of a figure.
 #[derive(Clone, Debug)]
 pub struct Rendered {
-    /// What it is.
+    /// Definition of the row.
     pub strip: &'static Strip,
-    /// Its scene, with the scene's own settings.
+    /// Scene with its own settings.
     pub scene: SceneDoc,
-    /// The panels as views, with the reference.
+    /// Panels as views, with the reference.
     pub experiment: Experiment,
-    /// Their numbers, in the same order.
+    /// Measurements of the panels, in the same order.
     pub standings: Vec<Standing>,
-    /// The reference as a view.
+    /// Reference as a view.
     pub reference: View,
-    /// What wants to be known, a sentence each.
+    /// Notices, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Renders the panels of a strip and its reference. `progress` hears of the share of the panels' and of the
-/// reference's work that is done, each from 0 to 1.
+/// Renders the panels of a strip and its reference. `progress` receives the completed fractions of the panels
+/// and of the reference, each from 0 to 1.
 ///
 /// # Errors
-/// When a setting does not fit, or the scene cannot be rendered.
+/// When a setting does not apply, or the scene cannot be rendered.
 pub fn render(
     strip: &'static Strip,
     options: &Options,
@@ -57,7 +57,7 @@ pub fn render(
 }
 
 impl Rendered {
-    /// The reference as what errors are measured against.
+    /// Reference for error measurement.
     #[must_use]
     pub fn held_against(&self) -> Reference {
         held_against(&self.reference)

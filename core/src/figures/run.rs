@@ -1,70 +1,30 @@
-//! Makes figures and study, and writes them as they come.
+//! Execution of figures and study, with incremental output.
 //!
-//! Whoever stops it half-way keeps what was finished: after every figure and after every scene of the study all
-//! tables and the page are written anew, each file in one step.
+//! Results are kept if the run is interrupted: after every figure and after every scene of the study all
+//! tables and the page are written again, each file atomically.
 
-use super::render::{Rendered, render};
-use super::study::{self, SceneStudy, VARIANTS};
+use super::render::render;
+use super::results::Results;
+use super::study::{self, VARIANTS};
 use super::{Figure, FiguresError, Options, Strip, compose, write};
 use crate::compare::report::make_folder;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
-/// How far it is.
+/// Progress of figures and study.
 #[derive(Clone, Debug)]
 pub struct Progress {
-    /// From 0 to 1, by what the parts are expected to take.
+    /// Fraction of the expected duration, from 0 to 1.
     pub fraction: f64,
-    /// What is being done.
+    /// Description of the current step.
     pub doing: String,
 }
 
-/// Everything that has come of it so far.
-#[derive(Clone, Debug, Default)]
-pub struct Results {
-    /// Figures that are finished, with their rows.
-    pub figures: Vec<(&'static Figure, Vec<Rendered>)>,
-    /// Scenes of the study that are finished.
-    pub studies: Vec<SceneStudy>,
-    /// Seconds from the start.
-    pub seconds: f64,
-    /// The files that were written, each once.
-    pub files: Vec<PathBuf>,
-}
-
-impl Results {
-    /// The rows of all figures.
-    pub fn rows(&self) -> impl Iterator<Item = &Rendered> {
-        self.figures.iter().flat_map(|(_, rows)| rows)
-    }
-
-    /// What the study says, from its numbers.
-    #[must_use]
-    pub fn conclusion(&self) -> Vec<String> {
-        study::conclusion(&self.studies)
-    }
-
-    /// What wants to be known, a sentence each.
-    #[must_use]
-    pub fn notes(&self) -> Vec<String> {
-        let mut notes: Vec<String> = Vec::new();
-        for rendered in self.rows() {
-            for note in &rendered.notes {
-                let note = format!("{}: {note}", rendered.strip.name);
-                if !notes.contains(&note) {
-                    notes.push(note);
-                }
-            }
-        }
-        notes
-    }
-}
-
-/// Renders these figures and runs the study on their scenes. Everything that was asked for is checked before
-/// anything is rendered.
+/// Renders the given figures and runs the study on their scenes. All options are checked before rendering
+/// starts.
 ///
 /// # Errors
-/// When the folder cannot be written, a setting or volume makes no sense, or a scene cannot be rendered.
+/// When the folder cannot be written, a setting or volume is invalid, or a scene cannot be rendered.
 pub fn run(
     figures: &[&'static Figure],
     options: &Options,
@@ -115,7 +75,7 @@ pub fn run(
     Ok(results)
 }
 
-/// That every document makes sense, and every volume has a place.
+/// Checks that every document is valid and that every volume is used.
 fn check(figures: &[&'static Figure], options: &Options) -> Result<(), FiguresError> {
     let strips = || figures.iter().flat_map(|figure| figure.strips);
     for own in &options.volumes {
@@ -131,7 +91,7 @@ fn check(figures: &[&'static Figure], options: &Options) -> Result<(), FiguresEr
     Ok(())
 }
 
-/// Seconds that the parts of a row take on two cores, roughly: only the progress bar asks.
+/// Approximate seconds of the parts of a row on two cores, used by the progress bar only.
 #[derive(Clone, Copy)]
 struct Cost {
     panels: f64,
@@ -147,7 +107,7 @@ impl Cost {
 
 fn cost(strip: &Strip, options: &Options) -> Cost {
     const PATHS_PER_SECOND: f64 = 1e6;
-    /// One majorant for the whole medium is slower to fly through than local ones.
+    /// One majorant for the whole medium is slower than local majorants.
     const GLOBAL_MAJORANT: f64 = 3.0;
     let [w, h] = options.size.unwrap_or(strip.size).map(f64::from);
     let paths = |spp: u64| w * h * spp as f64 / PATHS_PER_SECOND;

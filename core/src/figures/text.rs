@@ -1,15 +1,15 @@
-//! Words in a picture.
+//! Text rendering into images.
 
 use ab_glyph::{Font, FontRef, PxScale, ScaleFont};
 use image::{Rgb, RgbImage};
 
-/// Two typefaces: the second has the signs that the first lacks, such as superscripts.
+/// Font with a fallback for characters that it lacks, such as superscripts.
 pub(super) struct Typeface {
     fonts: Vec<FontRef<'static>>,
 }
 
 impl Typeface {
-    /// The typefaces that the window uses too.
+    /// Loads the fonts of the user interface.
     pub fn new() -> Self {
         let files = [epaint_default_fonts::UBUNTU_LIGHT, epaint_default_fonts::HACK_REGULAR];
         Self { fonts: files.into_iter().filter_map(|bytes| FontRef::try_from_slice(bytes).ok()).collect() }
@@ -19,13 +19,13 @@ impl Typeface {
         self.fonts.iter().find(|f| f.glyph_id(c).0 != 0)
     }
 
-    /// How wide a line is, in pixels.
+    /// Width of a line in pixels.
     pub fn width(&self, line: &str, size: f32) -> f32 {
         let advance = |c| self.font(c).map_or(0.0, |f| f.as_scaled(size).h_advance(f.glyph_id(c)));
         line.chars().map(advance).sum()
     }
 
-    /// Draws a line in a grey from 0 (black) to 1, its upper left corner at (x, y).
+    /// Draws a line in a grey from 0 (black) to 1, with its upper left corner at (x, y).
     pub fn draw(&self, image: &mut RgbImage, (x, y): (u32, u32), line: &str, size: f32, grey: f32) {
         let Some(first) = self.fonts.first() else { return };
         let (mut at, baseline) = (x as f32, y as f32 + first.as_scaled(size).ascent());
@@ -48,7 +48,7 @@ impl Typeface {
         }
     }
 
-    /// Lines that are no wider than this, broken at spaces.
+    /// Breaks text at spaces into lines of at most `width` pixels.
     pub fn wrapped(&self, text: &str, size: f32, width: f32) -> Vec<String> {
         let mut lines = vec![String::new()];
         for word in text.split_whitespace() {
@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn letters_leave_ink_where_they_stand_and_nowhere_else() {
+    fn letters_are_drawn_in_place_and_nowhere_else() {
         let face = Typeface::new();
         let mut image = RgbImage::from_pixel(200, 40, Rgb([255; 3]));
         let line = "relMSE 1.23 × 10⁻⁴ ±";
@@ -79,7 +79,7 @@ mod tests {
         let ink = |x: u32| (0..40).any(|y| image.get_pixel(x, y).0[0] < 128);
         assert!((10..10 + width as u32).filter(|x| ink(*x)).count() > 60);
         assert!(!(0..9).chain(12 + width as u32..200).any(ink));
-        // Every sign that numbers are written with is there.
+        // Every character used in numbers exists.
         for c in "0123456789.,−±×∞–⁻⁰¹²³⁴⁵⁶⁷⁸⁹[]()%".chars() {
             assert!(face.font(c).is_some(), "{c}");
         }

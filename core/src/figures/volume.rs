@@ -1,22 +1,22 @@
-//! A person's own volume in the place of ours.
+//! Replacement of an embedded volume by the user's own.
 
 use super::FiguresError;
-use crate::io::volume::{Limits, Volume, VolumeError, read_sparse_volume, read_sparse_volume_bytes};
+use crate::io::volume::{ReadLimits, Volume, VolumeError, read_sparse_volume, read_sparse_volume_bytes};
 use crate::io::{Library, embedded};
 use crate::scene::{DensityDoc, GridRef, Resources, SceneDoc, bounds, rotation};
 use glam::Vec3;
 use std::path::Path;
 
-/// Puts a volume where the embedded one stands: with the same centre, the same longest edge, and the same
-/// optical thickness of the thickest grid line, so that camera and lights keep their meaning. A scene without
-/// an embedded grid stays as it is.
+/// Replaces the embedded volume by another with the same centre, the same longest edge, and the same optical
+/// thickness of the densest grid line, so that camera and lights still fit. A scene without an embedded grid
+/// is not changed.
 ///
 /// # Errors
-/// When the file cannot be read, is no density, or is empty.
+/// When the file cannot be read, is not a density, or is empty.
 pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresError> {
     let Some(ours) = embedded(doc)? else { return Ok(()) };
     let name = file.display().to_string();
-    let theirs = read_sparse_volume(file, None, &Limits::default(), &|_| ())?;
+    let theirs = read_sparse_volume(file, None, &ReadLimits::default(), &|_| ())?;
     if theirs.channels() != 1 {
         return Err(FiguresError::Colour { file: name, channels: theirs.channels() });
     }
@@ -29,7 +29,7 @@ pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresErro
     let (lo, hi) = own_box(doc)?;
     let placement = &mut doc.medium.placement;
     if placement.fit.is_none() {
-        // Fitting centres the box on the origin; ours turns about its own origin.
+        // With `fit` the box is centred on the origin; the embedded volume rotates about its own origin.
         let centre = Vec3::from(placement.scale) * (0.5 * (lo + hi));
         let moved = rotation(placement.rotate_deg) * centre;
         placement.translate = (Vec3::from(placement.translate) + moved).into();
@@ -42,17 +42,18 @@ pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresErro
 fn embedded(doc: &SceneDoc) -> Result<Option<Volume>, VolumeError> {
     let Some(grid) = doc.medium.density.grid() else { return Ok(None) };
     let Some(bytes) = embedded::volume(&grid.file) else { return Ok(None) };
-    read_sparse_volume_bytes(bytes, &grid.file, grid.grid.as_deref(), &Limits::default(), &|_| ()).map(Some)
+    read_sparse_volume_bytes(bytes, &grid.file, grid.grid.as_deref(), &ReadLimits::default(), &|_| ())
+        .map(Some)
 }
 
-/// The box that the embedded grid fills before it is placed, as the scene has it.
+/// Bounding box of the embedded grid in the scene, before its placement.
 fn own_box(doc: &SceneDoc) -> Result<(Vec3, Vec3), FiguresError> {
     let Some(grid) = doc.medium.density.grid() else { return Ok((Vec3::ZERO, Vec3::ONE)) };
     let placed = Library::default().scalar_grid(grid, doc.medium.precision)?;
     Ok(bounds(&placed.object_from_unit))
 }
 
-/// The thickest grid line's sum of densities, in units of the longest edge.
+/// Largest sum of densities along a grid line, in units of the longest edge.
 fn thickness(volume: &Volume) -> f32 {
     let longest = volume.size().into_iter().max().unwrap_or(1).max(1);
     volume.thickest_line() / longest as f32
@@ -79,7 +80,7 @@ mod tests {
             let mut own = ours.clone();
             replace(&mut own, &file).unwrap();
             assert!((own.medium.scale / ours.medium.scale - 1.0).abs() < 1e-5, "{name}");
-            // The same box in the world, by way of the frozen scenes.
+            // The same box in world space, compared through the built scenes.
             let bounds = |doc: &SceneDoc| {
                 let info = crate::scene::build(doc, &mut Library::default()).unwrap().info;
                 [info.world_min, info.world_max].concat()
@@ -94,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_volume_that_cannot_stand_there_is_refused_and_a_cube_stays_a_cube() {
+    fn an_unsuitable_volume_is_refused_and_a_cube_stays_a_cube() {
         let mut doc = scene("cloud-sidelit");
         let missing = replace(&mut doc, Path::new("none.vdb")).unwrap_err().to_string();
         assert!(missing.contains("none.vdb"), "{missing}");

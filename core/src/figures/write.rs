@@ -1,10 +1,12 @@
-//! Files. Each is written beside its place and then renamed, so that nobody finds half of one.
+//! Output files. Each is written under a temporary name and then renamed, so that no incomplete file is
+//! visible.
 
+use super::compose::png;
 use super::render::Rendered;
-use super::run::Results;
+use super::results::Results;
 use super::{Figure, FiguresError, Options, compose, page};
 use crate::bench;
-use crate::compare::report::{ReportError, cell, csv_text, encode_png};
+use crate::compare::report::{ReportError, cell, csv_text};
 use crate::io::export;
 use image::RgbImage;
 use serde_json::{Value, json};
@@ -31,12 +33,7 @@ fn renamed(
     Ok(())
 }
 
-pub(super) fn png(image: &RgbImage) -> Result<Vec<u8>, FiguresError> {
-    let size = (image.width() as usize, image.height() as usize);
-    Ok(encode_png(image.as_raw(), size).map_err(|e| ReportError::write(Path::new("a picture"), e))?)
-}
-
-/// PNG and EXR of every panel of a row, and of its reference.
+/// Writes PNG and EXR files of every panel of a row and of its reference.
 pub(super) fn pictures(
     rendered: &Rendered,
     dir: &Path,
@@ -54,7 +51,7 @@ pub(super) fn pictures(
     Ok(())
 }
 
-/// The figure as one picture.
+/// Writes the composed figure.
 pub(super) fn figure(
     figure: &Figure,
     image: &RgbImage,
@@ -64,7 +61,7 @@ pub(super) fn figure(
     put(dir, &format!("figure{}.png", figure.id), &png(image)?, files)
 }
 
-/// Tables, JSON and the page, with all that there is so far.
+/// Writes tables, JSON and the page with all results so far.
 pub(super) fn results(results: &mut Results, options: &Options, dir: &Path) -> Result<(), FiguresError> {
     let mut files = std::mem::take(&mut results.files);
     put(dir, "figures.csv", table(results)?.as_bytes(), &mut files)?;
@@ -85,7 +82,7 @@ fn in_memory(e: &dyn std::fmt::Display) -> ReportError {
     ReportError::write(Path::new("the tables"), e)
 }
 
-/// Everything, for scripts.
+/// JSON document of all results.
 fn document(results: &Results, options: &Options) -> Value {
     let figures = results.figures.iter().map(|(figure, rows)| {
         let strips = rows.iter().map(|r| {

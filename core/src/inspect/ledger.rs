@@ -368,15 +368,8 @@ impl Bookkeeper {
             Technique::Equiangular => None,
         };
         let vertices = path.order + u32::from(technique == Technique::Equiangular);
-        let entry = Credit {
-            technique,
-            order: vertices,
-            nulls: path.nulls,
-            emitted,
-            value,
-            film,
-            by_definition,
-        };
+        let entry =
+            Credit { technique, order: vertices, nulls: path.nulls, emitted, value, film, by_definition };
         self.row(i, Step::Credit, None, &[]).credit = Some(entry);
         if matches!(technique, Technique::Connection | Technique::Equiangular) {
             self.link = None;

@@ -1,20 +1,20 @@
-//! Scenes and volumes that are part of the program, found from any working directory.
+//! Embedded scenes and volumes, available from any working directory.
 
-/// A scene that is part of the program.
+/// An embedded scene.
 #[derive(Clone, Copy, Debug)]
 pub struct EmbeddedScene {
-    /// How it is asked for.
+    /// Name by which it is opened.
     pub name: &'static str,
-    /// Its scene file.
+    /// Text of the scene file.
     pub toml: &'static str,
 }
 
-/// A volume that is part of the program; scenes name it `embedded:NAME`.
+/// An embedded volume; scenes refer to it as `embedded:NAME`.
 #[derive(Clone, Copy, Debug)]
 pub struct EmbeddedVolume {
-    /// How it is asked for, without `embedded:`.
+    /// Name without `embedded:`.
     pub name: &'static str,
-    /// Its bytes.
+    /// Bytes of the file.
     pub bytes: &'static [u8],
 }
 
@@ -27,7 +27,7 @@ macro_rules! scenes {
     };
 }
 
-/// Every embedded scene; the first opens by default.
+/// All embedded scenes; the first one opens by default.
 pub static SCENES: &[EmbeddedScene] = scenes![
     "first-light",
     "plume-spectral",
@@ -39,17 +39,17 @@ pub static SCENES: &[EmbeddedScene] = scenes![
     "furnace",
 ];
 
-/// Every embedded volume.
+/// All embedded volumes.
 pub static VOLUMES: &[EmbeddedVolume] = &[
     EmbeddedVolume { name: "plume.vdb", bytes: include_bytes!("../../../assets/volumes/plume.vdb") },
     EmbeddedVolume { name: "cloud.vdb", bytes: include_bytes!("../../../assets/volumes/cloud.vdb") },
 ];
 
-/// What a scene puts before the name of an embedded volume.
+/// Prefix of the names of embedded volumes in scenes.
 pub const PREFIX: &str = "embedded:";
 
 impl EmbeddedScene {
-    /// The scene's note, as one line.
+    /// Note of the scene on one line.
     #[must_use]
     pub fn summary(&self) -> String {
         super::scene_file::parse(self.toml, self.name)
@@ -58,13 +58,13 @@ impl EmbeddedScene {
     }
 }
 
-/// The embedded scene with this name.
+/// Embedded scene with the given name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static EmbeddedScene> {
     SCENES.iter().find(|s| s.name == name)
 }
 
-/// The bytes of `embedded:NAME`, if `file` is such a name and it exists.
+/// Bytes of `embedded:NAME`; `None` if `file` lacks the prefix or no such volume exists.
 #[must_use]
 pub fn volume(file: &str) -> Option<&'static [u8]> {
     let name = file.strip_prefix(PREFIX)?;

@@ -1,4 +1,4 @@
-//! Results out: EXR with standard errors and the whole scene, PNG as shown.
+//! Image output: EXR with standard errors and the complete scene, and tone-mapped PNG.
 
 use crate::film::Snapshot;
 use crate::film::display::DisplayTransform;
@@ -7,7 +7,7 @@ use exr::prelude::*;
 use serde_json::json;
 use std::path::Path;
 
-/// Why a result could not be written.
+/// Reason why an image could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{file} could not be written: {reason}. Choose another place, or free some space.")]
 pub struct ExportError {
@@ -19,11 +19,11 @@ fn failed(path: &Path, reason: impl ToString) -> ExportError {
     ExportError { file: path.display().to_string(), reason: reason.to_string() }
 }
 
-/// The name of the EXR text attribute that holds scene and statistics, as JSON.
+/// Name of the EXR text attribute with scene and statistics as JSON.
 pub const METADATA: &str = "majorant";
 
 /// Writes `R,G,B` (linear sRGB) and `stderr.R/G/B` (standard error of the mean) in one part, with the
-/// whole scene, estimator, seed, samples, seconds and version as JSON in the attribute `majorant`.
+/// complete scene, estimator, seed, samples, seconds and version as JSON in the attribute `majorant`.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -35,7 +35,7 @@ pub fn write_exr(path: &Path, snapshot: &Snapshot, doc: &SceneDoc) -> std::resul
         let error_name = format!("stderr.{name}");
         channels.push(AnyChannel::new(error_name.as_str(), plane(&snapshot.standard_error, c)));
     }
-    // One attribute: the crate's order of several is not reproducible.
+    // One attribute: the crate does not write several in a reproducible order.
     let mut attributes = LayerAttributes::default();
     let text = metadata(snapshot, doc).to_string();
     attributes.other.insert(Text::from(METADATA), AttributeValue::Text(Text::from(text.as_str())));
@@ -48,7 +48,7 @@ pub fn write_exr(path: &Path, snapshot: &Snapshot, doc: &SceneDoc) -> std::resul
     Image::from_layer(layer).write().to_file(path).map_err(|e| failed(path, e))
 }
 
-/// What is known about a result, as written into an EXR.
+/// Metadata of an image, as written into an EXR file.
 #[must_use]
 pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
     json!({
@@ -69,7 +69,7 @@ pub fn metadata(snapshot: &Snapshot, doc: &SceneDoc) -> serde_json::Value {
     })
 }
 
-/// Writes a PNG as the view shows it.
+/// Writes a PNG with the tone mapping of the view settings.
 ///
 /// # Errors
 /// When the file cannot be written.
@@ -77,7 +77,7 @@ pub fn write_png(path: &Path, snapshot: &Snapshot, view: &ViewDoc) -> std::resul
     write_png_of(path, &snapshot.mean, [snapshot.width, snapshot.height], view)
 }
 
-/// Writes linear sRGB, row by row from the top, as a PNG as the view shows it.
+/// Writes linear sRGB, row by row from the top, as a PNG with the tone mapping of the view settings.
 ///
 /// # Errors
 /// When the file cannot be written.

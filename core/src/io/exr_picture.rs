@@ -1,8 +1,8 @@
-//! EXR files as pictures: their colour channels, placed in the display window.
+//! Reading of EXR files as images: their colour channels, placed in the display window.
 //!
-//! A file holds the pixels of its data window, anywhere in the plane, and says by its display window which part of the
-//! plane is the picture. Pixels outside the display window (overscan) are cut off; pixels of it that are not in the
-//! file (a crop) have the value that the caller asks for.
+//! A file contains the pixels of its data window, anywhere in the plane; the display window defines the
+//! extent of the image. Pixels outside the display window (overscan) are discarded; pixels of the display
+//! window that are not in the file (a crop) get a value given by the caller.
 
 use super::picture::PictureError;
 use super::primaries::Primaries;
@@ -13,17 +13,17 @@ use ::exr::prelude::{IntegerBounds, ReadChannels, ReadLayers, ReadSpecificChanne
 use glam::DMat3;
 use std::path::Path;
 
-/// The most pixels that are read: 128 million take 1.5 GB.
+/// Maximum number of pixels: 128 million take 1.5 GB.
 pub(super) const MAX_PIXELS: usize = 128_000_000;
 
-/// Head of an EXR file, and the part of it that holds the picture.
+/// Header of an EXR file, and its part that contains the image.
 pub(super) struct Opened {
     file: String,
     header: Header,
     colour: Option<Colour>,
 }
 
-/// Channels that give the colour.
+/// Channels that define the colour.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Colour {
     /// R, G and B.
@@ -33,7 +33,8 @@ enum Colour {
 }
 
 impl Opened {
-    /// Reads the head, and refuses what would take too much memory: a damaged head can ask for any amount.
+    /// Reads the header and refuses images that would take too much memory, since a damaged header can state
+    /// any size.
     ///
     /// # Errors
     /// When the file is missing, not an EXR file, or too large.
@@ -53,7 +54,7 @@ impl Opened {
                 )));
             }
         }
-        // The first part that has the channels is the one that the reader of specific channels takes.
+        // The reader of specific channels uses the first part that has the channels.
         let find = |colour: Colour| meta.headers.iter().position(|h| !h.deep && colour.is_in(h));
         let found = [Colour::Rgb, Colour::Luminance].into_iter().find_map(|c| Some((find(c)?, c)));
         let (part, colour) = found.map_or((0, None), |(part, colour)| (part, Some(colour)));
@@ -65,17 +66,17 @@ impl Opened {
         &self.header
     }
 
-    /// Window of the picture.
+    /// Display window, the extent of the image.
     pub(super) fn display(&self) -> IntegerBounds {
         self.header.shared_attributes.display_window
     }
 
-    /// Window of the pixels in the file.
+    /// Data window, the extent of the pixels in the file.
     pub(super) fn data(&self) -> IntegerBounds {
         self.header.data_window()
     }
 
-    /// Linear sRGB from the file's RGB, by columns; `None` where it is the same.
+    /// Matrix from the RGB of the file to linear sRGB; `None` for the identity.
     pub(super) fn to_srgb(&self) -> Option<DMat3> {
         self.primaries()?.to_srgb().ok().flatten()
     }
@@ -86,18 +87,18 @@ impl Opened {
         Some(Primaries { red: pair(c.red), green: pair(c.green), blue: pair(c.blue), white: pair(c.white) })
     }
 
-    /// Whether the picture is the six sides of a cube.
+    /// Whether the image is a cube map.
     pub(super) fn is_cube(&self) -> bool {
         self.header.own_attributes.environment_map == Some(EnvironmentMap::Cube)
     }
 
-    /// Whether pixels of the display window are missing.
+    /// Whether pixels of the display window are missing in the file.
     pub(super) fn is_crop(&self) -> bool {
         let (data, display) = (corners(self.data()), corners(self.display()));
         data[0] > display[0] || data[1] > display[1] || data[2] < display[2] || data[3] < display[3]
     }
 
-    /// What is to be known about windows and primaries; `missing` says what becomes of missing pixels.
+    /// Notices about windows and primaries; `missing` describes the treatment of missing pixels.
     pub(super) fn notices(&self, missing: &str) -> Vec<String> {
         let file = &self.file;
         let mut notices = Vec::new();
@@ -110,7 +111,7 @@ impl Opened {
                 "the rest is cut off".into()
             };
             notices.push(format!(
-                "{file}: it holds the pixels {} of the picture {}; {rest}.",
+                "{file}: it contains the pixels {} of the image {}; {rest}.",
                 window(data),
                 window(display)
             ));
@@ -121,21 +122,21 @@ impl Opened {
                 Ok(None) => {}
                 Ok(Some(_)) => notices.push(format!(
                     "{file}: its primaries {red:?}, {green:?}, {blue:?} and white {white:?} were converted to linear \
-                     sRGB, the white by Bradford's adaptation."
+                     sRGB, with Bradford's adaptation of the white point."
                 )),
                 Err(_) => notices.push(format!(
                     "{file}: its chromaticities {red:?}, {green:?}, {blue:?}, {white:?} span no colour space; the \
-                     picture is read as linear sRGB."
+                     image is read as linear sRGB."
                 )),
             }
         }
         if self.colour == Some(Colour::Luminance) {
-            notices.push(format!("{file}: it holds luminance (Y) alone, and is read as grey."));
+            notices.push(format!("{file}: it contains luminance (Y) only, and is read as grey."));
         }
         notices
     }
 
-    /// Reads the colour of every pixel of the display window; those that the file lacks become `missing`.
+    /// Reads the colour of every pixel of the display window; pixels missing in the file become `missing`.
     ///
     /// # Errors
     /// When there is no colour, or the pixels are damaged.
@@ -157,7 +158,7 @@ impl Opened {
         }
     }
 
-    /// Reads the standard errors that this program writes beside the colour; `None` if there are none.
+    /// Reads the standard errors that this program writes with the colour; `None` if there are none.
     ///
     /// # Errors
     /// When the pixels are damaged.
@@ -173,7 +174,7 @@ impl Opened {
         self.planes(path, names, missing).map(Some)
     }
 
-    /// Three channels, placed in the display window.
+    /// Reads three channels, placed in the display window.
     fn planes(&self, path: &Path, names: [&str; 3], missing: f32) -> Result<Vec<[f32; 3]>, PictureError> {
         let place = self.place();
         let [a, b, c] = names;
@@ -206,7 +207,7 @@ impl Colour {
     fn is_in(self, header: &Header) -> bool {
         match self {
             Self::Rgb => RGB.into_iter().all(|name| has(header, name)),
-            // With X and Z it is a coordinate of XYZ, with RY and BY subsampled colour is beside it.
+            // With X and Z, Y is a coordinate of XYZ; with RY and BY the file has subsampled chroma.
             Self::Luminance => {
                 has(header, "Y") && !["X", "Z", "RY", "BY"].into_iter().any(|name| has(header, name))
             }
@@ -218,7 +219,7 @@ fn has(header: &Header, name: &str) -> bool {
     header.channels.list.iter().any(|channel| channel.name == *name)
 }
 
-/// Place of the data window in the display window.
+/// Position of the data window in the display window.
 #[derive(Clone, Copy)]
 struct Place {
     size: [usize; 2],
@@ -230,7 +231,7 @@ impl Place {
         self.size[0] * self.size[1]
     }
 
-    /// Stores a pixel of the data window, if it is one of the display window.
+    /// Stores a pixel of the data window if it is inside the display window.
     fn set(&self, pixels: &mut [[f32; 3]], Vec2(x, y): Vec2<usize>, value: [f32; 3]) {
         let at = |axis: usize, index: usize| {
             let at = usize::try_from(index as i64 + self.offset[axis]).ok()?;

@@ -1,7 +1,7 @@
-//! Finds and keeps the files that scenes name.
+//! Location and caching of the files that scenes reference.
 
 use super::placing::place;
-use super::volume::{self, GridChoice, GridRole, Limits, Volume};
+use super::volume::{self, GridChoice, GridRole, ReadLimits, Volume};
 use super::{Progress, embedded, fingerprint, phase_table, picture};
 use crate::light::Panorama;
 use crate::medium::Precision;
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::SystemTime;
 
-/// What a kept file is known by: a file that was written again is read again.
+/// Key of a cached file; a modified file is read again.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Key {
     path: PathBuf,
@@ -21,60 +21,60 @@ struct Key {
     modified: Option<SystemTime>,
 }
 
-/// Resolves file names against a base directory and the embedded assets, and keeps what it has read,
-/// so that an edit never reads a file again. The few most recent files are kept.
+/// Resolves file names against a base directory and the embedded assets, and caches their contents, so that
+/// edits do not read files again. The most recent files are kept.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
     base: PathBuf,
-    limits: Limits,
+    limits: ReadLimits,
     scalar: HashMap<(Key, Precision), PlacedGrid<1>>,
     rgb: HashMap<(Key, Precision), PlacedGrid<3>>,
     panoramas: HashMap<Key, (Arc<Panorama>, Vec<String>)>,
-    /// Files that exist in memory only, by the name that scenes use.
+    /// Files in memory, by the name used in scenes.
     in_memory: BTreeMap<String, Arc<[u8]>>,
     pictures_in_memory: BTreeMap<String, Arc<Panorama>>,
     digests: HashMap<Key, String>,
     progress: Progress,
 }
 
-/// Files of one kind that are kept; a student flips between a few clouds.
+/// Maximum number of cached files of each kind, enough to switch between a few volumes.
 const KEPT: usize = 4;
 
 impl Library {
-    /// The same library, resolving relative names against `base` (a scene file's directory).
+    /// Sets the directory against which relative names are resolved, usually that of the scene file.
     #[must_use]
     pub fn with_base(mut self, base: impl Into<PathBuf>) -> Self {
         self.base = base.into();
         self
     }
 
-    /// The same library with a volume or a table in memory, found by `name` before any file.
+    /// Adds a volume or table in memory, which takes precedence over a file named `name`.
     #[must_use]
     pub fn with_volume(mut self, name: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
         self.in_memory.insert(name.to_owned(), bytes.into());
         self
     }
 
-    /// The same library with a picture of the surroundings in memory, found by `name` before any file.
+    /// Adds an environment map in memory, which takes precedence over a file named `name`.
     #[must_use]
     pub fn with_panorama(mut self, name: &str, panorama: Panorama) -> Self {
         self.pictures_in_memory.insert(name.to_owned(), Arc::new(panorama));
         self
     }
 
-    /// How far the reading of a volume is.
+    /// Progress of the volume that is being read.
     #[must_use]
     pub fn progress(&self) -> &Progress {
         &self.progress
     }
 
-    /// Where a file that a scene names lies.
+    /// Path of a file that a scene references.
     #[must_use]
     pub fn locate(&self, file: &str) -> PathBuf {
         if file.starts_with(embedded::PREFIX) { PathBuf::from(file) } else { self.base.join(file) }
     }
 
-    /// When the files that a document names were last written: a scene is out of date once they change.
+    /// Modification times of the files that a document references, to detect outdated scenes.
     #[must_use]
     pub fn stamps(&self, doc: &SceneDoc) -> Vec<Option<SystemTime>> {
         doc.scene_part().files_mut().into_iter().map(|file| self.key(file, None).modified).collect()
@@ -86,7 +86,7 @@ impl Library {
         Key { path, grid: grid.cloned(), role: GridRole::Density, modified }
     }
 
-    /// Names a file's content; a file that cannot be read goes by its name.
+    /// Identifies the content of a file; an unreadable file is identified by its name.
     pub(super) fn digest(&mut self, file: &str) -> String {
         if let Some(bytes) = self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
             return fingerprint::of_bytes(bytes);
@@ -95,7 +95,7 @@ impl Library {
         if let Some(known) = self.digests.get(&key) {
             return known.clone();
         }
-        // What is longer than any file that is read goes by its name, length and time.
+        // A file beyond the size limit is identified by name, length and modification time.
         let long = std::fs::metadata(&key.path).ok().filter(|m| m.len() > self.limits.max_file_bytes);
         let digest = match long {
             Some(metadata) => format!("{file} {} {:?}", metadata.len(), key.modified),
@@ -105,12 +105,12 @@ impl Library {
         digest
     }
 
-    /// Takes over what a copy has learned about the content of files.
+    /// Takes over the file digests of a copy.
     pub(crate) fn learn(&mut self, copy: Self) {
         self.digests.extend(copy.digests);
     }
 
-    /// Reads a volume and makes a grid of it, saying how far it is.
+    /// Reads a volume and converts it to a grid, with progress.
     fn read_and_place<const C: usize>(
         &self,
         key: &Key,
@@ -123,7 +123,7 @@ impl Library {
         placed
     }
 
-    /// A scalar grid as it is read in a role, from what is kept or from its file.
+    /// A scalar grid read in a role, from the cache or from its file.
     fn scalar_in_role(
         &mut self,
         grid: &GridRef,
@@ -144,7 +144,7 @@ impl Library {
             return Err(ResourceError("no file is named: choose a .vdb, .npy, .vol or .raw file".into()));
         }
         let grid = GridChoice { name: key.grid.as_deref(), role: key.role };
-        // Bricks and what else follows take about as long as a fifth of the rest.
+        // Conversion to bricks takes about a fifth of the total time.
         let watch = |share: f64| self.progress.at(READING * share);
         let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
             Some(bytes) => volume::read_sparse_volume_bytes(bytes, file, grid, &self.limits, &watch),
@@ -163,10 +163,10 @@ impl Library {
     }
 }
 
-/// Share of the work of a volume that reading it is; the rest goes into bricks.
+/// Fraction of the loading time of a volume that is spent on reading; the rest is conversion to bricks.
 const READING: f64 = 0.8;
 
-/// Keeps a new entry, making room first.
+/// Adds an entry to a cache, clearing it first if it is full.
 fn keep<K: Eq + Hash, V>(map: &mut HashMap<K, V>, key: K, value: V) {
     if map.len() >= KEPT {
         map.clear();
@@ -208,7 +208,7 @@ impl Resources for Library {
         Ok(read)
     }
 
-    /// Small and quickly read: not kept.
+    /// Reads a phase table, which is too small to be cached.
     fn phase_table(&mut self, file: &str) -> Result<Vec<[f32; 2]>, ResourceError> {
         let read = match self.in_memory.get(file) {
             Some(bytes) => phase_table::parse(&String::from_utf8_lossy(bytes), file),
@@ -255,7 +255,7 @@ mod tests {
             edit(&mut doc);
             assert_eq!(field(&doc, &mut library), (density, bounds), "edit {i}");
         }
-        // Another resolution bounds the same voxels anew; both are kept.
+        // Another resolution has other majorants of the same voxels; both are cached.
         doc.medium.majorant.resolution = Some(13);
         let other = field(&doc, &mut library);
         assert!(other.0 == density && other.1 != bounds);
@@ -266,16 +266,17 @@ mod tests {
     }
 
     #[test]
-    fn reading_tells_how_far_it_is() {
+    fn reading_reports_its_progress() {
         let told = std::cell::RefCell::new(Vec::new());
         let watch = |share| told.borrow_mut().push(share);
         let bytes = embedded::volume("embedded:plume.vdb").expect("our plume");
-        volume::read_sparse_volume_bytes(bytes, "plume.vdb", None, &Limits::default(), &watch).expect("it");
+        volume::read_sparse_volume_bytes(bytes, "plume.vdb", None, &ReadLimits::default(), &watch)
+            .expect("it");
         let told = told.into_inner();
         assert!(told.len() > 8 && told.windows(2).all(|pair| pair[0] <= pair[1]), "{told:?}");
         assert_eq!(told.last(), Some(&1.0));
 
-        // Whoever waits sees the file by name, and nothing once it is read.
+        // While the file is read, its name is visible; afterwards, no file is.
         let mut library = Library::default();
         let progress = library.progress().clone();
         let seen = std::thread::scope(|scope| {

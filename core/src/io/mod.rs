@@ -1,4 +1,4 @@
-//! Files in and out: scenes, volumes, pictures, results.
+//! Input and output: scenes, volumes, images and results.
 
 pub mod embedded;
 pub mod export;

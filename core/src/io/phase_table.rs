@@ -1,47 +1,47 @@
-//! Tables of a phase function: text with an angle and a value on each line, separated by a comma, a semicolon or
-//! spaces. Lines that are empty or begin with `#` are skipped, and so is a heading.
+//! Phase function tables: text with an angle and a value on each line, separated by a comma, a semicolon or
+//! spaces. Empty lines, lines that begin with `#`, and a heading are skipped.
 
 use crate::phase::MAX_POINTS;
 use std::path::Path;
 
-/// Bytes of the largest file that is read.
+/// Size limit of a file in bytes.
 const MAX_BYTES: u64 = 64 * MAX_POINTS as u64;
 
-/// Why a table could not be read.
+/// Reason why a table could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum PhaseTableError {
     /// The file could not be read.
     #[error("{file}: {source}. Check the name and the folder, or choose another file.")]
     Io {
-        /// The file.
+        /// File name.
         file: String,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// The file is no small table.
+    /// The file is too large for a table.
     #[error("{file}: {bytes} bytes are too many; a table has at most {MAX_POINTS} points")]
     TooLarge {
-        /// The file.
+        /// File name.
         file: String,
-        /// Its size.
+        /// Size in bytes.
         bytes: u64,
     },
     /// A line is not a point.
     #[error("{file}:{line}: `{text}` is not a point: write an angle and a value, e.g. `0.5, 1.2`")]
     Line {
-        /// The file.
+        /// File name.
         file: String,
-        /// Line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What stands there.
+        /// Text of the line.
         text: String,
     },
 }
 
-/// Reads a table from a file; whether its points make sense is [`crate::phase::check_table`]'s to say.
+/// Reads a table from a file. [`crate::phase::check_table`] validates its points.
 ///
 /// # Errors
-/// When the file is missing, too large, or holds something else than pairs of numbers.
+/// When the file is missing, too large, or contains text other than pairs of numbers.
 pub fn read(path: &Path) -> Result<Vec<[f32; 2]>, PhaseTableError> {
     let file = path.display().to_string();
     let failed = |source| PhaseTableError::Io { file: file.clone(), source };
@@ -52,7 +52,7 @@ pub fn read(path: &Path) -> Result<Vec<[f32; 2]>, PhaseTableError> {
     parse(&std::fs::read_to_string(path).map_err(failed)?, &file)
 }
 
-/// Reads a table from text; `name` stands for the file in errors.
+/// Reads a table from text; `name` is the file name in errors.
 ///
 /// # Errors
 /// When a line is not a pair of numbers.
@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(parse(&good, "a.csv").unwrap(), [[-1.0, 0.2], [0.0, 0.5], [0.5, 1.5]]);
         assert_eq!(parse("\u{feff}0 1\n1 2", "a").unwrap().len(), 2);
         assert!(parse("", "a").unwrap().is_empty());
-        // NaN is a number here, and refused with the point's number later.
+        // NaN is parsed as a number here, and refused with the index of its point later.
         assert!(parse("0, nan", "a").unwrap()[0][1].is_nan());
     }
 

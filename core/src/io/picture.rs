@@ -1,4 +1,4 @@
-//! Pictures of the surroundings: EXR and Radiance HDR, as linear RGB.
+//! Reading of images and environment maps: EXR and Radiance HDR, as linear RGB.
 
 use super::exr_picture::{self, MAX_PIXELS, Opened};
 use super::primaries;
@@ -7,30 +7,30 @@ use exr::prelude as exr;
 use glam::DMat3;
 use std::path::Path;
 
-/// Why a picture could not be used.
+/// Reason why an image could not be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// The file could not be opened or read.
     #[error("{file}: {source}. Check the name and the folder, or choose another file.")]
     Io {
-        /// The file.
+        /// File name.
         file: String,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
-    /// The file is not a picture that is understood.
+    /// The file is not a supported image.
     #[error(
-        "{file}: not a usable picture: {reason}. Use a scan-line or tiled EXR, or a Radiance HDR, with R, G and B."
+        "{file}: not a usable image: {reason}. Use a scan-line or tiled EXR, or a Radiance HDR, with R, G and B."
     )]
     Invalid {
-        /// The file.
+        /// File name.
         file: String,
-        /// What is wrong, and the cure.
+        /// Fault and remedy.
         reason: String,
     },
 }
 
-/// A linear RGB picture, row by row from the top.
+/// A linear RGB image, row by row from the top.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Columns.
@@ -41,19 +41,19 @@ pub struct Picture {
     pub pixels: Vec<[f32; 3]>,
 }
 
-/// A picture as its file has it.
+/// An image as stored in its file.
 struct Stored {
     picture: Picture,
-    /// Linear sRGB from the file's RGB, by columns; `None` where it is the same.
+    /// Matrix from the RGB of the file to linear sRGB; `None` for the identity.
     to_srgb: Option<DMat3>,
     notices: Vec<String>,
 }
 
-/// Reads an `.exr` or `.hdr` picture as linear sRGB. Of an EXR, what its display window shows: overscan is cut off, and
-/// what the file lacks is black.
+/// Reads an `.exr` or `.hdr` image as linear sRGB. An EXR file is cropped to its display window: overscan is
+/// discarded, and missing pixels are black.
 ///
 /// # Errors
-/// When the file is missing, damaged, of another kind, or larger than memory allows.
+/// When the file is missing, damaged, of another format, or too large.
 pub fn read(path: &Path) -> Result<Picture, PictureError> {
     let Stored { mut picture, to_srgb, .. } = stored(path, |_| Ok(()))?;
     if let Some(matrix) = to_srgb {
@@ -62,7 +62,7 @@ pub fn read(path: &Path) -> Result<Picture, PictureError> {
     Ok(picture)
 }
 
-/// Reads a picture whose head passes a check.
+/// Reads an image whose EXR header passes a check.
 fn stored(path: &Path, check: impl Fn(&Opened) -> Result<(), PictureError>) -> Result<Stored, PictureError> {
     let file = path.display().to_string();
     let invalid = |reason: String| PictureError::Invalid { file: file.clone(), reason };
@@ -96,21 +96,21 @@ fn stored(path: &Path, check: impl Fn(&Opened) -> Result<(), PictureError>) -> R
     }
 }
 
-/// A picture with the standard errors and the metadata that [`super::export::write_exr`] adds.
+/// An image with the standard errors and the metadata written by [`super::export::write_exr`].
 #[derive(Clone, Debug)]
 pub struct EstimatedPicture {
     /// Mean linear RGB.
     pub picture: Picture,
-    /// Its standard error, if the file holds it.
+    /// Standard error of the mean, if the file contains it.
     pub standard_error: Option<Vec<[f32; 3]>>,
-    /// The JSON that this program leaves.
+    /// JSON metadata written by this program.
     pub metadata: Option<String>,
-    /// What is to be known about its windows and primaries.
+    /// Notices about windows and primaries.
     pub notices: Vec<String>,
 }
 
-/// Reads an EXR with all that is known about its noise, as linear sRGB. Pixels of the display window that the file lacks
-/// are NaN: nothing is known of them, and no error is measured there.
+/// Reads an EXR file with its noise statistics, as linear sRGB. Pixels of the display window that are missing
+/// in the file are NaN: they are unknown, and excluded from error measurement.
 ///
 /// # Errors
 /// As for [`read`].
@@ -125,7 +125,7 @@ pub fn read_estimate(path: &Path) -> Result<EstimatedPicture, PictureError> {
     let mut pixels = opened.colour(path, f32::NAN)?;
     let mut standard_error = opened.standard_error(path, f32::NAN)?;
     if pixels.iter().all(|pixel| pixel.iter().all(|x| x.is_nan())) {
-        return Err(invalid("none of its pixels lies in its display window, or all of them are NaN"));
+        return Err(invalid("no pixel is inside its display window, or all pixels are NaN"));
     }
     let mut notices = opened.notices("are unknown, and no error is measured there");
     if let Some(matrix) = opened.to_srgb() {
@@ -139,7 +139,7 @@ pub fn read_estimate(path: &Path) -> Result<EstimatedPicture, PictureError> {
     Ok(EstimatedPicture { picture, standard_error, metadata: metadata(&opened), notices })
 }
 
-/// The JSON that [`super::export::write_exr`] leaves.
+/// JSON metadata written by [`super::export::write_exr`].
 fn metadata(opened: &Opened) -> Option<String> {
     let name = exr::Text::from(super::export::METADATA);
     match opened.header().own_attributes.other.get(&name) {
@@ -148,17 +148,17 @@ fn metadata(opened: &Opened) -> Option<String> {
     }
 }
 
-/// What an infinite texel becomes: the largest half float, which is what a sun is clipped to by writers that do not let
-/// it overflow.
+/// Value that replaces an infinite texel: the largest half float, to which some writers clip the sun to avoid
+/// overflow.
 const LARGEST_HALF: f32 = 65504.0;
-/// Beyond this, sums over a large picture leave the range of floats.
+/// Threshold beyond which sums over a large image leave the range of floats.
 const INFINITE: f32 = 1e30;
 
-/// Reads a panorama as linear sRGB that is finite and not negative. Infinite texels become `LARGEST_HALF`, what is NaN
-/// or negative 0; each is told.
+/// Reads an environment map as finite, non-negative linear sRGB. Infinite texels become `LARGEST_HALF`; NaN
+/// and negative texels become 0. Each change is reported as a notice.
 ///
 /// # Errors
-/// As for [`read`], and when the picture is black or a cube map.
+/// As for [`read`], and when the image is black or a cube map.
 pub fn read_panorama(path: &Path) -> Result<(Panorama, Vec<String>), PictureError> {
     let file = path.display().to_string();
     let invalid = |reason: &str| PictureError::Invalid { file: file.clone(), reason: reason.into() };
@@ -170,11 +170,11 @@ pub fn read_panorama(path: &Path) -> Result<(Panorama, Vec<String>), PictureErro
     notices
         .extend(usable(&mut picture.pixels, to_srgb).into_iter().map(|notice| format!("{file}: {notice}")));
     let panorama = Panorama::new(picture.width, picture.height, picture.pixels)
-        .ok_or_else(|| invalid("the picture is empty or black, it would give no light"))?;
+        .ok_or_else(|| invalid("the image is empty or black and would emit no light"))?;
     Ok((panorama, notices))
 }
 
-/// Makes texels finite, linear sRGB and not negative, and tells what was changed.
+/// Makes texels finite, linear sRGB and non-negative, and describes the changes.
 fn usable(texels: &mut [[f32; 3]], to_srgb: Option<DMat3>) -> Vec<String> {
     let (mut infinite, mut undefined, mut negative) = (0_usize, 0_usize, 0_usize);
     for texel in texels {
@@ -202,22 +202,22 @@ fn usable(texels: &mut [[f32; 3]], to_srgb: Option<DMat3>) -> Vec<String> {
     .collect()
 }
 
-/// What an EXR file says about itself.
+/// Header information of an EXR file.
 #[derive(Clone, Debug)]
 pub struct ExrInfo {
-    /// Columns of the picture, that is, of the display window.
+    /// Columns of the image, that is, of the display window.
     pub width: usize,
-    /// Rows of the picture.
+    /// Rows of the image.
     pub height: usize,
     /// First and last pixel of the display window, both inclusive: x, y, x, y.
     pub display_window: [i64; 4],
-    /// First and last pixel in the file.
+    /// First and last pixel of the data window.
     pub data_window: [i64; 4],
-    /// Names of the channels of the part that holds the colour, or of the first.
+    /// Channel names of the part with the colour, or of the first part.
     pub channels: Vec<String>,
-    /// The JSON that [`super::export::write_exr`] leaves, if this program wrote the file.
+    /// JSON metadata of [`super::export::write_exr`], if this program wrote the file.
     pub metadata: Option<String>,
-    /// What is to be known about its windows and primaries.
+    /// Notices about windows and primaries.
     pub notices: Vec<String>,
 }
 
@@ -239,7 +239,7 @@ pub fn exr_info(path: &Path) -> Result<ExrInfo, PictureError> {
     })
 }
 
-/// Tells what would be changed in a picture if it were used as an environment map: texels that are not finite or
+/// Describes the changes that an image would undergo as an environment map: texels that are not finite or
 /// negative.
 ///
 /// # Errors

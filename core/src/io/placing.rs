@@ -1,4 +1,4 @@
-//! From what a file holds to a grid over the unit cube, and the place of that cube.
+//! Conversion of voxels to a grid over the unit cube, and the transformation of that cube.
 
 use super::volume::{BLOCK_EDGE, BlockGrid, SampleConvention, Volume, VoxelGrid};
 use crate::medium::{BRICK_EDGE, Bricks, Grid, Lattice, Majorants, Packing, Precision};
@@ -7,13 +7,13 @@ use glam::{Affine3A, DAffine3, DVec3};
 use std::path::Path;
 use std::sync::Arc;
 
-// A file's own blocks become bricks as they are.
+// Blocks of a file are used as bricks without rearrangement.
 const _: () = assert!(BLOCK_EDGE as usize == BRICK_EDGE);
 
-/// Turns voxels into a grid over the unit cube, and places that cube.
+/// Converts voxels to a grid over the unit cube with its transformation.
 ///
 /// # Errors
-/// It has another number of channels, or no voxels.
+/// When it has a different number of channels, or no voxels.
 pub(super) fn place<const C: usize>(
     volume: Volume,
     path: &Path,
@@ -56,7 +56,7 @@ pub(super) fn place<const C: usize>(
     let placed = world_from_index * index_from_unit;
     let object_from_unit =
         Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
-    // The readers give `.npy` and `.raw` a box of their own choice.
+    // The readers choose the box of `.npy` and `.raw` files.
     let says_where =
         path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
     let grid = Arc::new(grid);
@@ -64,7 +64,7 @@ pub(super) fn place<const C: usize>(
     Ok(PlacedGrid { name, grid, majorants, object_from_unit, says_where, notices })
 }
 
-/// The grid of an array, and the place of the unit cube among its indices.
+/// Grid of an array, and the transformation from the unit cube to its indices.
 fn of_array<const C: usize>(voxels: VoxelGrid, precision: Precision) -> (Option<Grid<C>>, DAffine3) {
     let samples: Vec<[f32; C]> =
         voxels.values.chunks_exact(C).map(|c| std::array::from_fn(|i| c[i])).collect();
@@ -85,7 +85,7 @@ fn of_array<const C: usize>(voxels: VoxelGrid, precision: Precision) -> (Option<
     }
 }
 
-/// The same of blocks, without an array of the box.
+/// As [`of_array`], for blocks, without an array of the box.
 fn of_blocks<const C: usize>(blocks: BlockGrid, precision: Precision) -> (Option<Grid<C>>, DAffine3) {
     let (min, size) = (blocks.bbox[0], blocks.size());
     let place = between_vertices(min, size);
@@ -93,7 +93,7 @@ fn of_blocks<const C: usize>(blocks: BlockGrid, precision: Precision) -> (Option
     let edge = i64::from(BLOCK_EDGE);
     let first = min.map(|i| (i64::from(i) - 1).div_euclid(edge));
     let brick_of = |origin: [i32; 3]| -> [usize; 3] {
-        // Every block and tile holds something within the box.
+        // Every block and tile contains values within the box.
         std::array::from_fn(|axis| (i64::from(origin[axis]).div_euclid(edge) - first[axis]).max(0) as usize)
     };
     let places: Vec<_> = blocks.origins.iter().map(|origin| brick_of(*origin)).collect();
@@ -113,19 +113,19 @@ fn of_blocks<const C: usize>(blocks: BlockGrid, precision: Precision) -> (Option
     (Some(Grid::of_bricks(bricks, Lattice::VertexCentred, precision)), place)
 }
 
-/// Where in its brick the layer of background before the first voxel stands: bricks fall on the blocks of the file's
-/// own tree.
+/// Offset within a brick of the background layer before the first voxel, chosen so that bricks coincide with
+/// the blocks of the file's tree.
 fn phase(min_index: [i32; 3]) -> [usize; 3] {
     min_index.map(|i| (i64::from(i) - 1).rem_euclid(BRICK_EDGE as i64) as usize)
 }
 
-/// The unit cube between the first and the last vertex of a box with one layer of background all around.
+/// Unit cube between the first and the last vertex of a box with one layer of background on every side.
 fn between_vertices(min_index: [i32; 3], size: [usize; 3]) -> DAffine3 {
     let min = DVec3::from(min_index.map(f64::from));
     DAffine3::from_translation(min - 1.0) * DAffine3::from_scale(DVec3::from(size.map(|n| n as f64)) + 1.0)
 }
 
-/// One layer of background all around, so that the field fades out as it does in OpenVDB.
+/// Adds one layer of background on every side, so that the field fades out as in OpenVDB.
 fn pad<const C: usize>(
     [nx, ny, nz]: [usize; 3],
     samples: &[[f32; C]],

@@ -1,8 +1,9 @@
-//! Conversion of linear RGB of any primaries and white to linear sRGB, whose primaries are those of Rec. 709.
+//! Conversion of linear RGB with arbitrary primaries and white point to linear sRGB, whose primaries are
+//! those of Rec. 709.
 
 use glam::{DMat3, DVec3, Vec3};
 
-/// Chromaticities (x, y) of the three primaries and of white.
+/// Chromaticities (x, y) of the three primaries and of the white point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Primaries {
     pub(super) red: [f32; 2],
@@ -15,7 +16,7 @@ pub(super) struct Primaries {
 pub(super) const REC709: Primaries =
     Primaries { red: [0.64, 0.33], green: [0.3, 0.6], blue: [0.15, 0.06], white: [0.3127, 0.329] };
 
-/// Files round chromaticities to three or four digits.
+/// Tolerance, since files round chromaticities to three or four digits.
 const ROUNDING: f32 = 1e-3;
 
 /// Cone responses from XYZ after Bradford (K. M. Lam, 1985), by columns.
@@ -25,15 +26,15 @@ const BRADFORD: DMat3 = DMat3::from_cols_array(&[
     -0.1614, 0.0367, 1.0296,
 ]);
 
-/// Why primaries span no colour space.
+/// Error for primaries that span no colour space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Degenerate;
 
 impl Primaries {
-    /// Linear sRGB from linear RGB of these primaries, by columns; `None` where both are the same.
+    /// Matrix from linear RGB with these primaries to linear sRGB; `None` for the identity.
     ///
-    /// White becomes white: the adaptation from one white point to the other is Bradford's, which is what colour
-    /// management by ICC and ACES uses.
+    /// The white point is preserved: it is adapted by Bradford's transformation, as in ICC and ACES colour
+    /// management.
     pub(super) fn to_srgb(self) -> Result<Option<DMat3>, Degenerate> {
         let flat = |p: Self| [p.red, p.green, p.blue, p.white];
         let pairs = flat(self).into_iter().zip(flat(REC709));
@@ -53,14 +54,14 @@ impl Primaries {
         if matrix.is_finite() { Ok(Some(matrix)) } else { Err(Degenerate) }
     }
 
-    /// XYZ of white with Y = 1.
+    /// XYZ of the white point with Y = 1.
     fn white_xyz(self) -> Option<DVec3> {
         let white = coordinates(self.white);
         (white.is_finite() && white.y > 0.0).then(|| white / white.y)
     }
 
-    /// XYZ from RGB: columns along the primaries, so long that (1, 1, 1) is white. No division by y of a primary, which
-    /// is 0 for a primary on the axis (X, Z).
+    /// XYZ from RGB: columns along the primaries, scaled so that (1, 1, 1) is the white point. There is no
+    /// division by y of a primary, which is 0 for a primary on the axis (X, Z).
     fn xyz_from_rgb(self) -> Option<DMat3> {
         let directions =
             DMat3::from_cols(coordinates(self.red), coordinates(self.green), coordinates(self.blue));
@@ -72,18 +73,18 @@ impl Primaries {
     }
 }
 
-/// (x, y, z) with z = 1 − x − y.
+/// Chromaticity (x, y, z) with z = 1 − x − y.
 fn coordinates([x, y]: [f32; 2]) -> DVec3 {
     let (x, y) = (f64::from(x), f64::from(y));
     DVec3::new(x, y, 1.0 - x - y)
 }
 
-/// A colour by a matrix, in double precision.
+/// Applies a matrix to a colour in double precision.
 pub(super) fn convert(matrix: &DMat3, rgb: [f32; 3]) -> [f32; 3] {
     (*matrix * Vec3::from(rgb).as_dvec3()).as_vec3().to_array()
 }
 
-/// Bounds of the standard errors of converted channels, whatever their correlation: Σ |mᵢⱼ| sⱼ.
+/// Upper bounds of the standard errors of converted channels for any correlation: Σ |mᵢⱼ| sⱼ.
 pub(super) fn convert_errors(matrix: &DMat3, errors: [f32; 3]) -> [f32; 3] {
     let absolute = DMat3::from_cols(matrix.x_axis.abs(), matrix.y_axis.abs(), matrix.z_axis.abs());
     convert(&absolute, errors)
@@ -111,7 +112,7 @@ mod tests {
         }
     }
 
-    /// The published matrix of ACES2065-1 to linear Rec. 709 with Bradford's adaptation.
+    /// Published matrix from ACES2065-1 to linear Rec. 709 with Bradford's adaptation.
     #[test]
     fn ap0_becomes_srgb_by_the_published_matrix() {
         let rows = [

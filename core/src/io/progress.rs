@@ -1,40 +1,40 @@
-//! How far the reading of a file is, for whoever waits for it.
+//! Progress of file reading, shared between threads.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file that is being read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loading {
-    /// Its name as the scene has it.
+    /// Name in the scene.
     pub file: String,
-    /// The share that is done, from 0 to 1; it never falls.
+    /// Completed fraction, from 0 to 1; never decreases.
     pub fraction: f64,
 }
 
-/// A place where readers leave how far they are. Clones are the same place.
+/// Shared progress of a reader. Clones refer to the same state.
 #[derive(Clone, Debug, Default)]
 pub struct Progress(Arc<Mutex<Option<Loading>>>);
 
 impl Progress {
-    /// What is being read, if anything is.
+    /// File that is being read, if any.
     #[must_use]
     pub fn loading(&self) -> Option<Loading> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// A file is opened.
+    /// Records that a file was opened.
     pub(super) fn begin(&self, file: &str) {
         self.set(Some(Loading { file: file.to_owned(), fraction: 0.0 }));
     }
 
-    /// A share of it is done; less than was done before is no news.
+    /// Records the completed fraction; a smaller value is ignored.
     pub(super) fn at(&self, fraction: f64) {
         if let Some(loading) = self.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
             loading.fraction = loading.fraction.max(fraction.clamp(0.0, 1.0));
         }
     }
 
-    /// It is read, or cannot be.
+    /// Records that reading has succeeded or failed.
     pub(super) fn end(&self) {
         self.set(None);
     }

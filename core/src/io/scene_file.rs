@@ -1,42 +1,42 @@
-//! Scene files: TOML that holds the whole editable document.
+//! Scene files: the complete editable document as TOML.
 //!
-//! Errors name line and column. Keys carry their units (`fov_deg`, `lambda_nm`), so that a wrong unit
-//! is an unknown key or a value out of range.
+//! Errors state line and column. Keys include their units (`fov_deg`, `lambda_nm`), so that a wrong unit is
+//! an unknown key or a value out of range.
 
 use crate::estimator::validate;
 use crate::scene::{FORMAT_VERSION, SceneDoc};
 use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
-/// Why a scene could not be read or written.
+/// Reason why a scene could not be read or written.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneFileError {
     /// The file could not be read or written.
     #[error("{file}: {source}. Check the name and the folder, or choose another file.")]
     Io {
-        /// The file.
+        /// File name.
         file: String,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The text is not a scene.
     #[error("{file}:{line}:{column}: {message}")]
     Invalid {
-        /// The file.
+        /// File name.
         file: String,
-        /// Line, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// Column, from 1.
+        /// Column number, from 1.
         column: usize,
-        /// What is wrong, and the cure.
+        /// Fault and remedy.
         message: String,
     },
-    /// A `KEY=VALUE` override does not fit the scene.
+    /// A `KEY=VALUE` override does not apply to the scene.
     #[error("`{assignment}`: {message}")]
     Override {
-        /// The override as given.
+        /// Text of the override.
         assignment: String,
-        /// What is wrong.
+        /// Fault.
         message: String,
     },
 }
@@ -52,7 +52,7 @@ pub fn load(path: &Path) -> Result<SceneDoc, SceneFileError> {
     parse(&text, &file)
 }
 
-/// Reads a scene from text; `name` stands for the file in errors.
+/// Reads a scene from text; `name` is the file name in errors.
 ///
 /// # Errors
 /// When the text is not a valid scene: syntax, unknown keys, wrong types, values out of range.
@@ -65,6 +65,7 @@ pub fn parse(text: &str, name: &str) -> Result<SceneDoc, SceneFileError> {
         let offset = locate_error(text, &e);
         invalid(offset, e.message().to_owned())
     })?;
+    let doc = doc.with_window_keys_moved();
     if doc.majorant != FORMAT_VERSION {
         let message = format!(
             "this is scene format {}, but this program reads format {FORMAT_VERSION}: set `majorant = {FORMAT_VERSION}` if the keys fit",
@@ -78,7 +79,7 @@ pub fn parse(text: &str, name: &str) -> Result<SceneDoc, SceneFileError> {
     }
 }
 
-/// The text of a document. It reads back as the same document.
+/// Text of a document, which parses to the same document.
 #[must_use]
 pub fn to_toml(doc: &SceneDoc) -> String {
     toml::to_string(doc).unwrap_or_else(|e| format!("# not representable: {e}\n"))
@@ -89,19 +90,20 @@ pub fn to_toml(doc: &SceneDoc) -> String {
 /// # Errors
 /// When the file cannot be written.
 pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
-    // Written beside it and then renamed: a full disk must not cost the scene that was there.
+    // Written under a temporary name and then renamed, so that a full disk does not destroy the existing
+    // scene.
     let beside = path.with_extension("toml.part");
     std::fs::write(&beside, to_toml(doc))
         .and_then(|()| std::fs::rename(&beside, path))
         .map_err(|source| SceneFileError::Io { file: path.display().to_string(), source })
 }
 
-/// Applies `KEY=VALUE` overrides such as `medium.majorant.factor=2` or `lights.0.scale=3`. Values are
-/// written as in a scene file; a word that is not TOML is taken as text.
+/// Applies `KEY=VALUE` overrides such as `medium.majorant.factor=2` or `lights.0.scale=3`. Values use the
+/// syntax of scene files; a value that is not valid TOML is taken as text.
 ///
 /// # Errors
-/// When a key does not exist, a value does not fit it, or all together make no sense; the override to
-/// blame is named.
+/// When a key does not exist, a value has the wrong type, or the resulting scene is invalid; the error names
+/// the override responsible.
 pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc, SceneFileError> {
     let mut doc = doc.clone();
     for assignment in assignments {
@@ -112,8 +114,9 @@ pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc,
         let mut tree = toml::Value::try_from(&doc).map_err(|e| failed(e.to_string()))?;
         set(&mut tree, path.trim(), read_value(value.trim())).map_err(failed)?;
         doc = tree.try_into().map_err(|e: toml::de::Error| failed(e.message().to_owned()))?;
+        doc = doc.with_window_keys_moved();
     }
-    // Only together do they have to make sense: a width may need the height that comes after it.
+    // Only the combination is validated: a width may require the height that follows it.
     match validate(&doc).into_iter().next() {
         None => Ok(doc),
         Some(problem) => {
@@ -162,7 +165,7 @@ fn set(tree: &mut toml::Value, path: &str, value: toml::Value) -> Result<(), Str
 fn child<'a>(tree: &'a mut toml::Value, key: &str) -> Option<&'a mut toml::Value> {
     match tree {
         toml::Value::Table(table) => {
-            // Tables that are all default are not written out; an override may still enter them.
+            // Tables with default values only are omitted from the text; an override may still refer to them.
             Some(table.entry(key).or_insert_with(|| toml::Value::Table(toml::Table::new())))
         }
         toml::Value::Array(items) => items.get_mut(key.parse::<usize>().ok()?),
@@ -177,8 +180,8 @@ fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// Where an error lies. Inside tagged tables the reader only knows where the table begins: there the
-/// key that the message quotes is looked up, down to the next table's header.
+/// Offset of an error. Inside tagged tables the parser knows only where the table begins; the key quoted in
+/// the message is then searched for, up to the header of the next table.
 fn locate_error(text: &str, error: &toml::de::Error) -> usize {
     let start = error.span().map_or(0, |span| span.start);
     let Some(key) = error.message().split('`').nth(1).filter(|q| !q.is_empty()) else { return start };
@@ -196,7 +199,7 @@ fn locate_error(text: &str, error: &toml::de::Error) -> usize {
     start
 }
 
-/// Offset of the value of a key such as `lights[1].size`, or of its innermost parent that the text has.
+/// Offset of the value of a key such as `lights[1].size`, or of its innermost parent in the text.
 fn offset_of(text: &str, path: &str) -> Option<usize> {
     let document = DeTable::parse(text).ok()?;
     let mut parts = path.split(['.', '[', ']']).filter(|part| !part.is_empty());

@@ -1,4 +1,4 @@
-//! Which light a connection goes to.
+//! Choice of the light of a connection.
 
 use super::{Light, LightKind};
 use crate::spectrum::Spectrum;
@@ -6,36 +6,36 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::f32::consts::{PI, TAU};
 
-/// Which light a connection goes to.
+/// Rule by which a connection chooses its light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightSelection {
-    /// Any, with the same probability.
+    /// All lights with equal probability.
     #[default]
     Uniform,
-    /// In proportion to what lights emit: wins where some are faint. On the side-lit cloud relMSE ×0.66 of the even choice,
-    /// on the plume ×0.97; one look at a table per connection.
+    /// In proportion to emitted power: wins where some lights are faint. On the side-lit cloud relMSE ×0.66
+    /// of the uniform choice, on the plume ×0.97; costs one table look-up per connection.
     Power,
-    /// In proportion to what would reach the point from each, were nothing in the way: wins where lights stand
-    /// at different distances. Costs a look at every light per connection. relMSE ×0.71 and ×0.98 on the same.
+    /// In proportion to the unoccluded illuminance at the point: wins where lights are at different
+    /// distances. Evaluates every light per connection. relMSE ×0.71 and ×0.98 on the same scenes.
     Contribution,
 }
 
-/// Share of choices that are uniform, so that no light is ruled out by an estimate.
+/// Probability of a uniform choice, so that no estimate can rule out a light.
 const UNIFORM: f32 = 0.1;
 
-/// What is known of every light before paths are traced.
+/// Precomputed data for choosing a light.
 #[derive(Clone, Debug, Default)]
 pub struct LightChoice {
     sources: Vec<Source>,
-    /// Probability of each by power.
+    /// Probability of each light under [`LightSelection::Power`].
     by_power: Vec<f32>,
 }
 
-/// A light as far as its illumination goes.
+/// A light, reduced to what its illuminance depends on.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// Emits on its normal's side.
+    /// Emits on the side of its normal.
     Rectangle {
         center: Vec3,
         normal: Vec3,
@@ -47,7 +47,7 @@ enum Source {
         radius: f32,
         luminance: f32,
     },
-    /// Luminance integrated over directions: the same everywhere.
+    /// Luminance integrated over directions, the same at every point.
     Distant {
         illuminance: f32,
     },
@@ -74,7 +74,7 @@ impl Source {
         }
     }
 
-    /// What it emits, as luminous flux; distant lights into a ball of this radius.
+    /// Emitted luminous flux; for distant lights the flux into a ball of this radius.
     fn power(self, radius: f32) -> f32 {
         match self {
             Self::Rectangle { area, luminance, .. } => PI * area * luminance,
@@ -83,14 +83,14 @@ impl Source {
         }
     }
 
-    /// Illuminance at a point that turns to it, roughly: up close it stays finite.
+    /// Approximate illuminance at a point facing the light; bounded at small distances.
     fn illuminance(self, at: Vec3) -> f32 {
         match self {
             Self::Rectangle { center, normal, area, luminance } => {
                 let away = at - center;
                 let squared = away.length_squared();
                 let cosine = normal.dot(away) / squared.sqrt().max(f32::MIN_POSITIVE);
-                // Seen edge-on from its middle, parts of it may still be seen from the front.
+                // Where the centre is seen edge-on, parts of the rectangle may still be seen from the front.
                 luminance * (area * cosine.max(0.05) / squared.max(f32::MIN_POSITIVE)).min(TAU)
             }
             Self::Sphere { center, radius, luminance } => {
@@ -103,7 +103,7 @@ impl Source {
 }
 
 impl LightChoice {
-    /// Among these lights, around a medium that fits a ball of this radius.
+    /// Prepares the choice among these lights, around a medium that fits into a ball of this radius.
     #[must_use]
     pub fn new(lights: &[Light], medium_radius: f32) -> Self {
         let sources: Vec<_> = lights.iter().map(Source::new).collect();
@@ -113,8 +113,8 @@ impl LightChoice {
         Self { sources, by_power }
     }
 
-    /// Chooses a light by a number uniform in [0, 1): its index and the probability of that choice. `None` if
-    /// there are none.
+    /// Chooses a light from a number uniform in [0, 1), and returns its index and the probability of the
+    /// choice. `None` if there are no lights.
     #[must_use]
     #[inline]
     pub fn choose(&self, at: Vec3, u: f32, by: LightSelection) -> Option<(usize, f32)> {
@@ -132,7 +132,7 @@ impl LightChoice {
         }
     }
 
-    /// The probability with which [`Self::choose`] chooses a light.
+    /// Probability with which [`Self::choose`] chooses a light.
     #[must_use]
     #[inline]
     pub fn probability(&self, index: usize, at: Vec3, by: LightSelection) -> f32 {
@@ -152,7 +152,7 @@ impl LightChoice {
     }
 }
 
-/// Probability of one of `count` with this value among values of this total.
+/// Probability of one of `count` lights, for its value and the total of all values.
 fn mixed(value: f32, total: f32, count: usize) -> f32 {
     let uniform = 1.0 / count as f32;
     if total > 0.0 && total.is_finite() {
@@ -162,7 +162,7 @@ fn mixed(value: f32, total: f32, count: usize) -> f32 {
     }
 }
 
-/// The last one takes what rounding leaves.
+/// Selects an index by its probability; the last one also takes the remainder left by rounding.
 fn pick(u: f32, probabilities: impl Iterator<Item = f32>) -> Option<(usize, f32)> {
     let mut left = u;
     let mut chosen = None;

@@ -1,14 +1,14 @@
-//! The same radiance from every direction. Sampled uniformly over the sphere.
+//! Constant environment, sampled uniformly over the sphere.
 
 use super::{Emitter, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
 use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
 
-/// A constant environment.
+/// Environment with the same radiance from every direction.
 #[derive(Clone, Debug)]
 pub struct Environment {
-    /// Arriving radiance.
+    /// Incident radiance.
     pub radiance: Spectrum,
 }
 

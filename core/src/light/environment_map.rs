@@ -1,9 +1,9 @@
-//! Radiance by direction from an equirectangular picture, sampled in proportion to it.
+//! Environment map from an equirectangular image, importance-sampled by luminance.
 //!
-//! The top row is +y, the middle column −z, and x grows to the right of it. Texels are constant, so that
+//! The top row is +y, the middle column −z, and x increases to the right of it. Texels are constant, so that
 //! sampling in proportion to luminance is exact: a texel is drawn by its luminance times its solid angle,
-//! then a direction uniformly over it. One direction in twenty is drawn uniformly over the sphere
-//! instead, so that no texel is too faint beside a bright one to be drawn at all.
+//! then a direction uniformly within it. One direction in twenty is drawn uniformly over the sphere
+//! instead, so that faint texels beside bright ones are also drawn.
 
 use super::{Emitter, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
@@ -12,26 +12,26 @@ use glam::{Vec2, Vec3};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Share of directions that are drawn uniformly over the sphere.
+/// Probability of drawing a direction uniformly over the sphere.
 const UNIFORM: f32 = 0.05;
 
-/// A picture prepared for sampling; shared by every edit that does not change the file.
+/// Image prepared for sampling; shared by all edits that do not change the file.
 #[derive(Debug)]
 pub struct Panorama {
     width: usize,
     height: usize,
     /// Linear sRGB, finite and not negative.
     texels: Vec<[f32; 3]>,
-    /// ∫ luminance over the sphere.
+    /// Integral of luminance over the sphere.
     total: f64,
-    /// ∫ luminance over the rows above, `height + 1` entries from 0 to `total`.
+    /// Integral of luminance over the rows above, `height + 1` entries from 0 to `total`.
     rows: Vec<f64>,
-    /// Σ luminance of the texels to the left, `width + 1` entries a row.
+    /// Sum of luminance of the texels to the left, `width + 1` entries per row.
     columns: Vec<f64>,
 }
 
 impl Panorama {
-    /// Prepares a picture of finite, non-negative linear sRGB; `None` if it is empty or black.
+    /// Prepares an image in finite, non-negative linear sRGB; `None` if it is empty or black.
     #[must_use]
     pub fn new(width: usize, height: usize, texels: Vec<[f32; 3]>) -> Option<Self> {
         if width == 0 || height == 0 || texels.len() != width * height {
@@ -82,14 +82,14 @@ impl Panorama {
     }
 }
 
-/// An environment map as placed in a scene.
+/// Environment map placed in a scene.
 #[derive(Clone, Debug)]
 pub struct EnvironmentMap {
-    /// The picture.
+    /// Image.
     pub panorama: Arc<Panorama>,
-    /// Multiplies the picture.
+    /// Scale factor of the image.
     pub scale: f32,
-    /// Turns the picture about +y, in radians.
+    /// Rotation of the image about +y, in radians.
     pub rotate: f32,
 }
 
@@ -109,7 +109,7 @@ impl EnvironmentMap {
 impl Emitter for EnvironmentMap {
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
         let direction = self.turned(self.panorama.sample(u), self.rotate);
-        // Of the direction as rounded: on a texel's border it may belong to the neighbour.
+        // Density of the rounded direction, which at a texel's border may fall into the neighbouring texel.
         let density = self.density(from, direction, f32::INFINITY);
         Some(LightSample { direction, distance: f32::INFINITY, density })
     }
@@ -133,14 +133,14 @@ fn cos_edge(y: usize, height: usize) -> f64 {
     (PI * y as f64 / height as f64).cos()
 }
 
-/// Difference of cos θ across row `y`, its solid angle divided by 2π, as a product that does not cancel
+/// Difference of cos θ across row `y`, its solid angle divided by 2π, as a product without cancellation
 /// at the poles.
 fn band(y: usize, height: usize) -> f64 {
     let step = PI / height as f64;
     2.0 * ((y as f64 + 0.5) * step).sin() * (0.5 * step).sin()
 }
 
-/// The step of a rising table that holds the share `u` of its last entry, and where in the step.
+/// Inverts a cumulative table at the share `u` of its last entry: index of the step, and position within it.
 fn invert(cumulative: &[f64], u: f64) -> (usize, f64) {
     let last = cumulative.len() - 1;
     let target = u * cumulative[last];

@@ -1,18 +1,18 @@
-//! Broad lobes towards the lights, to guide paths with.
+//! Broad lobes towards the lights, for path guiding.
 //!
-//! Where scattering is sharply forward, a path that is to reach a light from the side has to turn towards it
-//! in several steps, each of them rare. Directions drawn from these lobes, mixed with the phase function's,
-//! make such paths often and of little weight instead of seldom and of much. A fixed, analytic stand-in for
-//! learnt guiding (Herholz et al. 2019, "Volume path guiding based on zero-variance random walk theory").
+//! Where scattering is sharply forward, a path that reaches a light from the side has to change direction in
+//! several steps, each of them rare. With directions drawn from these lobes, mixed with the phase function,
+//! such paths are frequent with small weights instead of rare with large ones. A fixed, analytic substitute
+//! for learnt guiding (Herholz et al. 2019, "Volume path guiding based on zero-variance random walk theory").
 
 use super::{Light, LightKind};
 use crate::math::{Frame, INV_4PI, PolarAngle};
 use glam::{Vec2, Vec3};
 
-/// Mean cosine of a lobe: as broad as a few forward scatterings leave a beam.
+/// Mean cosine of a lobe: about the spread of a beam after a few forward scatterings.
 const G: f32 = 0.75;
 
-/// One Henyey–Greenstein lobe for every light that stands in some direction; none for surroundings.
+/// One Henyey–Greenstein lobe for every light with a position or direction; none for environments.
 #[derive(Clone, Debug)]
 pub struct LightLobes {
     targets: Vec<Target>,
@@ -34,7 +34,7 @@ impl Target {
 }
 
 impl LightLobes {
-    /// Towards these lights; `None` if no light is anywhere in particular.
+    /// Creates lobes towards these lights; `None` if no light has a position or direction.
     #[must_use]
     pub fn towards(lights: &[Light]) -> Option<Self> {
         let target = |light: &Light| match &light.kind {
@@ -47,7 +47,7 @@ impl LightLobes {
         (!targets.is_empty()).then_some(Self { targets })
     }
 
-    /// Density of a direction as seen from `point`, per steradian: the mean of the lobes.
+    /// Density of a direction seen from `point`, per steradian: the mean of the lobes.
     #[must_use]
     pub fn density(&self, point: Vec3, direction: Vec3) -> f32 {
         let lobe = |target: &Target| {
@@ -58,7 +58,7 @@ impl LightLobes {
         self.targets.iter().map(lobe).sum::<f32>() / self.targets.len() as f32
     }
 
-    /// Draws a direction with [`Self::density`].
+    /// Draws a direction with density [`Self::density`].
     #[must_use]
     pub fn sample(&self, point: Vec3, u: Vec2) -> Vec3 {
         let scaled = u.x * self.targets.len() as f32;

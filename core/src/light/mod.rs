@@ -1,7 +1,7 @@
-//! Lights: what they emit, and how to draw directions towards them.
+//! Lights: their emission, and sampling of directions towards them.
 //!
 //! Densities are per steradian as seen from the shaded point. Directions point from the scene towards
-//! the light. Every light has a positive extent, so that a path which is scattered at random can meet it.
+//! the light. Every light has a positive extent, so that a randomly scattered path can reach it.
 
 mod choice;
 mod environment;
@@ -31,26 +31,26 @@ use glam::{Vec2, Vec3};
 pub struct LightSample {
     /// Unit vector towards the light.
     pub direction: Vec3,
-    /// Distance to it; infinite for distant lights.
+    /// Distance to the light; infinite for distant lights.
     pub distance: f32,
     /// Density of the direction, per steradian.
     pub density: f32,
 }
 
-/// The contract of one light.
+/// Interface of a light.
 pub trait Emitter {
-    /// Draws a direction in which `from` receives light; `None` where it receives none.
+    /// Draws a direction from which `from` receives light; `None` where it receives none.
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample>;
 
-    /// The density with which [`Self::sample`] draws `direction`, which reaches the light after
+    /// Density with which [`Self::sample`] draws `direction`, which reaches the light after
     /// `distance`.
     fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32;
 
-    /// Radiance that arrives from `direction`, which reaches the light's emitting side.
+    /// Radiance arriving along `direction`, which must reach the light's emitting side.
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance;
 }
 
-/// Any light.
+/// Kind of a light, with its parameters.
 #[derive(Clone, Debug)]
 pub enum LightKind {
     /// A one-sided rectangle.
@@ -59,18 +59,18 @@ pub enum LightKind {
     Sphere(SphereLight),
     /// A distant disc.
     Sun(Sun),
-    /// The same from everywhere.
+    /// A constant environment.
     Environment(Environment),
-    /// By direction, from a picture.
+    /// An environment map from an image.
     EnvironmentMap(EnvironmentMap),
 }
 
 /// A light of the scene.
 #[derive(Clone, Debug)]
 pub struct Light {
-    /// What it is.
+    /// Kind.
     pub kind: LightKind,
-    /// Whether the camera sees it directly.
+    /// Whether the camera sees the light directly.
     pub visible: bool,
 }
 
@@ -87,7 +87,7 @@ macro_rules! each {
 }
 
 impl Light {
-    /// Its middle; distant lights have none.
+    /// Centre; `None` for distant lights.
     #[must_use]
     pub fn center(&self) -> Option<Vec3> {
         match &self.kind {
@@ -97,7 +97,7 @@ impl Light {
         }
     }
 
-    /// Distance from a point to its emitting side; `None` where a direction misses it.
+    /// Distance from a point to the emitting side; `None` where the direction misses it.
     #[must_use]
     pub fn reach(&self, from: Vec3, direction: Vec3) -> Option<f32> {
         let ray = Ray { origin: from, direction };
@@ -116,8 +116,8 @@ impl Light {
         }
     }
 
-    /// Whether a ray that leaves the scene in `direction` reaches this light; surfaces are met, not
-    /// escaped to.
+    /// Whether a ray that leaves the scene in `direction` reaches this light. False for lights with a
+    /// surface, which are found by intersection.
     #[must_use]
     pub fn is_behind(&self, direction: Vec3) -> bool {
         match &self.kind {

@@ -1,53 +1,56 @@
-//! Directions that follow the phase function and can meet a light: product sampling.
+//! Product sampling: directions that follow the phase function and can reach a light.
 //!
-//! Where scattering is sharp, a point drawn evenly on a large light is one that hardly anything is scattered to, and a
-//! direction drawn by the phase function misses a light close by. Here the scattering angle is drawn from the part of a
-//! Henyey–Greenstein lobe in which a light is seen: with s = 1 − cos θ and q(s) = √((1 − g)² + 2 g s), that lobe has
+//! Where scattering is sharp, a point drawn uniformly on a large light mostly receives hardly any scattered
+//! light, and a direction drawn from the phase function misses a light close by. Here the scattering angle is
+//! drawn from the part of a Henyey–Greenstein lobe that covers a light: with s = 1 − cos θ and
+//! q(s) = √((1 − g)² + 2 g s), that lobe has
 //!
 //! ```text
 //!   ∫ p dω over [s₀, s₁] = (1 − g²) (s₁ − s₀) / (q₀ q₁ (q₀ + q₁)),   1/q = (1 − ξ)/q₀ + ξ/q₁
 //! ```
 //!
-//! and no azimuth is preferred. Any lobe is right, the nearer to the phase function the better. In connections a share
-//! is drawn evenly over the light, so that no part of it is ever left out, and all of it where scattering is even.
+//! and the azimuth is uniform. Any lobe gives an unbiased estimate; the closer to the phase function, the
+//! lower the variance. In connections a share of directions is drawn uniformly over the light, so that no
+//! part of it is ever left out, and all of them where scattering is isotropic.
 
 use super::sector::Sector;
 use super::{Emitter, Light, LightSample};
 use crate::math::{Frame, INV_4PI, PolarAngle};
 use glam::{Vec2, Vec3};
 
-/// Lights whose parts are kept at a vertex; connections to further ones are drawn evenly, and nothing is guided there.
+/// Number of lights whose parts are stored at a vertex; connections to further lights are drawn uniformly,
+/// without guiding.
 const KEPT: usize = 4;
 
-/// Most of a connection's directions that are drawn by the lobe.
+/// Largest share of a connection's directions drawn from the lobe.
 const MOST: f32 = 0.75;
 
-/// A Henyey–Greenstein lobe at a vertex, and its parts in which the lights are seen.
+/// Henyey–Greenstein lobe at a vertex, with the parts that cover the lights.
 #[derive(Clone, Copy, Debug)]
 pub struct LobeParts {
-    /// About the direction in which most is scattered.
+    /// Frame about the direction of strongest scattering.
     frame: Frame,
     /// Mean cosine, 0 ≤ g < 1.
     g: f32,
     parts: [Option<Part>; KEPT],
-    /// How many of them stand for a light.
+    /// Number of parts in use, one per stored light.
     lights: usize,
 }
 
-/// The part of a lobe in which a light is seen.
+/// Part of a lobe that covers a light.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     sector: Sector,
-    /// q where the sector begins.
+    /// q at the start of the sector.
     q0: f32,
-    /// And where it ends.
+    /// q at the end of the sector.
     q1: f32,
-    /// ∫ of the lobe over the part.
+    /// Integral of the lobe over the part.
     mass: f32,
 }
 
 impl LobeParts {
-    /// At a point that scatters from `omega_in`, mostly as `mean_cosine` says.
+    /// Creates the lobe at a point that scatters light from `omega_in`, with this mean cosine.
     #[must_use]
     pub fn new(lights: &[Light], from: Vec3, omega_in: Vec3, mean_cosine: f32) -> Self {
         let frame = Frame::about(omega_in * 1.0f32.copysign(mean_cosine));
@@ -60,7 +63,8 @@ impl LobeParts {
         lobe
     }
 
-    /// Draws a direction in which `from` receives light; `None` where it receives none, or the direction misses it.
+    /// Draws a direction from which `from` receives light; `None` where it receives none, or the direction
+    /// misses the light.
     #[must_use]
     pub fn sample_light(&self, index: usize, light: &Light, from: Vec3, mut u: Vec2) -> Option<LightSample> {
         let Some(part) = self.part_of(index) else { return light.sample(from, u) };
@@ -77,7 +81,7 @@ impl LobeParts {
         Some(LightSample { density, ..sample })
     }
 
-    /// The density with which [`Self::sample_light`] draws `direction`, which reaches the light after `distance`.
+    /// Density with which [`Self::sample_light`] draws `direction`, which reaches the light after `distance`.
     #[must_use]
     pub fn light_density(
         &self,
@@ -94,18 +98,18 @@ impl LobeParts {
         })
     }
 
-    /// Density of a direction towards any of the lights, per steradian: the mean over those that are kept.
+    /// Density of a direction drawn by [`Self::sample`], per steradian: the mean over the stored lights.
     #[must_use]
     pub fn density(&self, direction: Vec3) -> f32 {
         let s = self.angle(direction);
         let local = self.frame.to_local(direction);
         let parts = self.parts.iter().take(self.lights);
-        // A light without a part stands for the whole lobe.
+        // A light without a part uses the whole lobe.
         let inside = parts.map(|part| part.map_or(1.0, |part| part.sector.holds(s, local) / part.mass));
         self.value(s) * inside.sum::<f32>() / self.lights as f32
     }
 
-    /// Draws a direction with [`Self::density`].
+    /// Draws a direction with density [`Self::density`].
     #[must_use]
     pub fn sample(&self, mut u: Vec2) -> Vec3 {
         let scaled = u.y * self.lights as f32;
@@ -121,17 +125,17 @@ impl LobeParts {
         (mass > f32::MIN_POSITIVE).then_some(Part { sector, q0, q1, mass })
     }
 
-    /// The part that connections to a light are drawn from, if they are.
+    /// The part from which connections to a light are drawn, if any.
     fn part_of(&self, light: usize) -> Option<&Part> {
         if self.share() < 0.01 { None } else { self.parts.get(light)?.as_ref() }
     }
 
-    /// Share of a connection's directions that are drawn by the lobe.
+    /// Share of a connection's directions drawn from the lobe.
     fn share(&self) -> f32 {
         (self.g * self.g).min(MOST)
     }
 
-    /// s of a direction.
+    /// s = 1 − cos θ of a direction.
     fn angle(&self, direction: Vec3) -> f32 {
         PolarAngle::between(self.frame.axis(), direction).one_minus_cos
     }
@@ -141,17 +145,17 @@ impl LobeParts {
         ((1.0 - self.g) * (1.0 - self.g) + 2.0 * self.g * s).sqrt()
     }
 
-    /// The lobe at s, per steradian.
+    /// Value of the lobe at s, per steradian.
     fn value(&self, s: f32) -> f32 {
         let q = self.root(s);
         INV_4PI * (1.0 - self.g) * (1.0 + self.g) / (q * q * q)
     }
 
-    /// Draws a direction of a part, in proportion to the lobe.
+    /// Draws a direction within a part, in proportion to the lobe.
     fn draw(&self, Part { sector, q0, q1, .. }: &Part, u: Vec2) -> Vec3 {
         let lerped = (1.0 - u.x) * q1 + u.x * q0;
         let q = q0 * q1 / lerped;
-        // s − s₀ = (q² − q₀²) / 2g, without the differences, which a lobe that is not sharp could not afford.
+        // s − s₀ = (q² − q₀²) / 2g without the difference, which would cancel for lobes that are not sharp.
         let beyond = u.x * sector.depth * q0 * (q + q0) / ((q0 + q1) * lerped);
         let theta = PolarAngle::from_one_minus_cos((sector.near + beyond).min(2.0));
         self.frame.polar(theta, sector.start + u.y * sector.turns)

@@ -1,14 +1,14 @@
-//! A rectangle that emits on its normal's side. Sampled uniformly over its area.
+//! Rectangle light that emits on the side of its normal, sampled uniformly over its area.
 
 use super::{Emitter, LightSample};
 use crate::spectrum::{Components, Spectrum};
 use crate::surface::Rectangle;
 use glam::{Vec2, Vec3};
 
-/// A one-sided rectangle light; its other side is black.
+/// One-sided rectangle light; its other side is black.
 #[derive(Clone, Debug)]
 pub struct RectangleLight {
-    /// Its shape.
+    /// Shape.
     pub shape: Rectangle,
     /// Emitted radiance.
     pub radiance: Spectrum,

@@ -1,4 +1,4 @@
-//! Part of the sphere of directions that a light is seen in: a range of angles from an axis and of azimuths about it.
+//! Sector of directions that covers a light: a range of angles from an axis and of azimuths about it.
 
 use super::{Light, LightKind};
 use crate::math::Frame;
@@ -6,15 +6,15 @@ use crate::surface::Rectangle;
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
-/// Relative room that rounding is given, so that no direction to the light falls outside.
+/// Relative margin for rounding, so that no direction to the light falls outside.
 const ROOM: f32 = 1e-4;
 
-/// All directions at an angle θ from an axis with near ≤ 1 − cos θ ≤ near + depth, at these azimuths.
+/// Directions at an angle θ from an axis with near ≤ 1 − cos θ ≤ near + depth, within a range of azimuths.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sector {
-    /// 1 − cos θ, where it begins.
+    /// 1 − cos θ at the start.
     pub near: f32,
-    /// By how much 1 − cos θ grows from there.
+    /// Range of 1 − cos θ.
     pub depth: f32,
     /// First azimuth, in turns.
     pub start: f32,
@@ -26,7 +26,7 @@ impl Sector {
     /// Every direction.
     pub const ALL: Self = Self { near: 0.0, depth: 2.0, start: -0.5, turns: 1.0 };
 
-    /// 1 if it holds a direction, else 0: by its 1 − cos θ, and the direction along the frame's axes.
+    /// 1 if the sector contains a direction, given by its 1 − cos θ and its coordinates in the frame; else 0.
     pub fn holds(&self, s: f32, local: Vec3) -> f32 {
         let beyond = s - self.near;
         let after = local.y.atan2(local.x) / TAU - self.start;
@@ -45,8 +45,8 @@ impl Sector {
         }
     }
 
-    /// That of a disc of directions about the unit vector `toward`, given along the axes of a frame; the sine and the size of its half
-    /// angle, which is less than a right one.
+    /// Sector of a disc of directions about the unit vector `toward`, in coordinates of the frame. The half
+    /// angle is given with its sine, and is less than a right angle.
     fn of_disc(toward: Vec3, sin_half: f32, half: f32) -> Self {
         let off_axis = toward.x.hypot(toward.y);
         let angle = off_axis.atan2(toward.z);
@@ -59,10 +59,11 @@ impl Sector {
         Self::new(near, far, toward.y.atan2(toward.x) - aside, 2.0 * aside)
     }
 
-    /// That of a rectangle, whose corners are given in order along the axes of a frame at the eye.
+    /// Sector of a rectangle whose corners are given in order, in coordinates of a frame at the viewpoint.
     fn of_corners(corners: &[Vec3; 4]) -> Self {
         let edges = || corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a, *b));
-        // Azimuths: all of them if the axis passes through, else less than half a turn, between two corners.
+        // Azimuths: the full circle if the axis passes through, else less than half a turn, between two
+        // corners.
         let side = |a: Vec3, b: Vec3| a.x * b.y - a.y * b.x;
         let about = edges().all(|(a, b)| side(a, b) >= 0.0) || edges().all(|(a, b)| side(a, b) <= 0.0);
         // A corner on the axis itself has no azimuth.
@@ -78,7 +79,7 @@ impl Sector {
                 last = *corner;
             }
         }
-        // Angles: extremes at corners or inside edges, or where the axis passes.
+        // Angles: extremes are at corners, inside edges, or on the axis if it passes through.
         let (mut near, mut far) = (2.0f32, 0.0f32);
         for (a, b) in edges() {
             let turns_round = turning_point(a, b - a).map(|t| one_minus_cos(a + (b - a) * t));
@@ -103,7 +104,7 @@ fn one_minus_cos(v: Vec3) -> f32 {
     if v.z > 0.0 { (v.x * v.x + v.y * v.y) / (length * (length + v.z)) } else { 1.0 - v.z / length }
 }
 
-/// Where along `from` + t `edge`, 0 < t < 1, the angle to the axis turns round.
+/// Parameter t on `from` + t `edge`, 0 < t < 1, at which the angle to the axis has an extremum.
 fn turning_point(from: Vec3, edge: Vec3) -> Option<f32> {
     let along = from.dot(edge);
     let t =
@@ -112,8 +113,8 @@ fn turning_point(from: Vec3, edge: Vec3) -> Option<f32> {
 }
 
 impl Light {
-    /// A sector about a frame's axis in which `from` sees all of the light. `None` for surroundings, and where no light
-    /// is received.
+    /// Sector about a frame's axis that covers the whole light as seen from `from`. `None` for environments,
+    /// and where no light is received.
     pub(super) fn sector(&self, from: Vec3, frame: &Frame) -> Option<Sector> {
         match &self.kind {
             LightKind::Rectangle(light) => {

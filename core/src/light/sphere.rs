@@ -1,4 +1,4 @@
-//! A sphere that emits outwards. Sampled uniformly over the cone that it fills.
+//! Sphere light that emits outwards, sampled uniformly over the cone that it subtends.
 
 use super::{Emitter, LightSample};
 use crate::math::{Frame, PolarAngle};
@@ -7,17 +7,17 @@ use crate::surface::Sphere;
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;
 
-/// A sphere light.
+/// Sphere light.
 #[derive(Clone, Debug)]
 pub struct SphereLight {
-    /// Its shape.
+    /// Shape.
     pub shape: Sphere,
     /// Emitted radiance.
     pub radiance: Spectrum,
 }
 
 impl SphereLight {
-    /// 1 − cos of the half angle under which the sphere is seen, without cancellation; `None` inside.
+    /// 1 − cos of the half angle that the sphere subtends, without cancellation; `None` inside.
     fn one_minus_cos_max(&self, distance2: f32) -> Option<f32> {
         let sin2 = self.shape.radius * self.shape.radius / distance2;
         (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
@@ -31,7 +31,7 @@ impl Emitter for SphereLight {
         let cap = self.one_minus_cos_max(distance2)?;
         let theta = PolarAngle::from_one_minus_cos(u.x * cap);
         let direction = Frame::about(to_center / distance2.sqrt()).polar(theta, u.y);
-        // Distance to the near side: foot of the centre on the ray, less half a chord.
+        // Distance to the near side: foot of the centre on the ray, minus half a chord.
         let along = to_center.dot(direction);
         let off_axis2 = (to_center - direction * along).length_squared();
         let half_chord = (self.shape.radius * self.shape.radius - off_axis2).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! A distant disc: constant radiance from every direction within a small angle of one.
+//! Distant disc light: constant radiance from all directions within a small angle of a direction.
 
 use super::{Emitter, LightSample};
 use crate::math::{Frame, PolarAngle};
@@ -6,8 +6,8 @@ use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
 
-/// A sun. Its radiance is irradiance / (π sin² α) for half angle α, so that a surface that faces it
-/// receives the irradiance that was asked for, whatever its diameter.
+/// Sun. Its radiance is irradiance / (π sin² α) for half angle α, so that a surface facing it receives the
+/// specified irradiance, whatever the diameter.
 #[derive(Clone, Debug)]
 pub struct Sun {
     toward: Vec3,
@@ -17,7 +17,7 @@ pub struct Sun {
 }
 
 impl Sun {
-    /// A sun in direction `toward` with an apparent diameter in degrees.
+    /// Creates a sun in direction `toward` with an apparent diameter in degrees.
     #[must_use]
     pub fn new(toward: Vec3, angular_diameter_deg: f32, irradiance: Spectrum) -> Self {
         let half_angle = 0.5 * angular_diameter_deg.to_radians();
@@ -31,25 +31,25 @@ impl Sun {
         }
     }
 
-    /// Unit vector towards its centre.
+    /// Unit vector towards the centre.
     #[must_use]
     pub fn toward(&self) -> Vec3 {
         self.toward
     }
 
-    /// Half of its apparent diameter, in radians.
+    /// Half of the apparent diameter, in radians.
     #[must_use]
     pub fn half_angle(&self) -> f32 {
         self.half_angle
     }
 
-    /// A measure of its radiance, integrated over its disc.
+    /// Integral over the disc of a scalar measure of the radiance.
     #[must_use]
     pub fn irradiance(&self, measure: impl Fn(&Spectrum) -> f32) -> f32 {
         measure(&self.radiance) * TAU * self.one_minus_cos_max
     }
 
-    /// Whether the disc lies in this direction.
+    /// Whether the disc covers a direction.
     #[must_use]
     pub fn covers(&self, direction: Vec3) -> bool {
         PolarAngle::between(direction, self.toward).one_minus_cos < self.one_minus_cos_max
@@ -86,7 +86,7 @@ mod tests {
         for diameter in [0.1, 0.53, 5.0] {
             let sun = Sun::new(Vec3::Y, diameter, Spectrum::constant(2.0));
             let components = RgbChannels::<1> { channel: [0] };
-            let s = sun.sample(Vec3::ZERO, Vec2::new(0.5, 0.5)).expect("always lit");
+            let s = sun.sample(Vec3::ZERO, Vec2::new(0.5, 0.5)).expect("the sun can always be sampled");
             let radiance = sun.radiance(s.direction, &components).hero();
             let half = 0.5 * f64::from(diameter).to_radians();
             let irradiance = f64::from(radiance) * std::f64::consts::PI * half.sin().powi(2);

@@ -1,5 +1,6 @@
 //! Geometry and randomness that nothing else in the crate is below of.
 
+mod bits;
 mod fast;
 mod frame;
 mod polar;

@@ -1,5 +1,6 @@
 //! Random numbers as a pure function of (seed, pixel, sample).
 
+use super::bits::{mix, unit};
 use super::ln;
 use super::stratified::Stratified;
 use glam::{Vec2, Vec3};
@@ -46,12 +47,6 @@ pub enum SideStream {
     EquiangularVertex = 2,
     /// A walk of its own towards the light in the direction in which the path goes on.
     LightWalk = 3,
-}
-
-/// A number in [0, 1) from the upper 24 bits.
-#[inline]
-pub(super) fn unit(bits: u32) -> f32 {
-    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
 impl Sampler {
@@ -175,14 +170,6 @@ pub fn numbers_of_point(point: Vec3, salt: u32) -> Vec3 {
     let a = mix(u64::from(x) << 32 | u64::from(y));
     let b = mix(a ^ (u64::from(z) << 32 | u64::from(salt)));
     Vec3::new(unit(b as u32), unit((b >> 32) as u32), unit(mix(b) as u32))
-}
-
-/// The finaliser of SplitMix64 (Steele, Lea and Flood 2014): every input bit reaches every output bit.
-pub(super) fn mix(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
 }
 
 #[cfg(test)]

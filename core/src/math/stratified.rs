@@ -1,6 +1,6 @@
 //! Points that spread the first decisions of a pixel's paths evenly.
 
-use super::sampler::{mix, unit};
+use super::bits::{mix, unit};
 
 /// A generating vector for up to 2^20 points in base 2, every prefix of 2^k of them being a lattice too (Cools,
 /// Kuo and Nuyens 2006, "Constructing embedded lattice rules for multivariate integration").

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::picture::is_finite;
-use super::{MeasureError, Measured, Picture, Reference, Region};
+use super::{MeasureError, Measured, Picture, ReferencePicture, Region};
 
 /// One channel of one pixel.
 #[derive(Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct Channel {
 /// Averages over pixels and channels: `of` gives a channel's value and the reference's share of it.
 pub(super) fn average(
     picture: &Picture,
-    reference: &Reference,
+    reference: &ReferencePicture,
     region: Region,
     of: impl Fn(Channel) -> (f64, f64) + Sync,
 ) -> Result<Measured, MeasureError> {
@@ -47,7 +47,7 @@ pub(super) fn average(
 /// Averages over those pixels of a region that are finite in the reference and by `finite`: `of` gives a
 /// pixel's value and the reference's share of it, from its index and its number in the region.
 pub(super) fn average_pixels(
-    reference: &Reference,
+    reference: &ReferencePicture,
     region: Region,
     finite: impl Fn(usize) -> bool + Sync,
     of: impl Fn(usize, u64) -> (f64, f64) + Sync,

@@ -2,13 +2,13 @@
 
 // The layer test looks no further than this: what makes a test may come from anywhere.
 #[cfg(test)]
-use crate::io::volume::{Limits, read_npy_bytes};
+use crate::io::volume::{ReadLimits, read_npy_bytes};
 
-use super::{Picture, Reference, Region};
+use super::{Picture, ReferencePicture, Region};
 
 /// A stored array's values.
 pub(super) fn values(bytes: &[u8]) -> Vec<f32> {
-    read_npy_bytes(bytes, "fixture", &Limits::default()).unwrap().values
+    read_npy_bytes(bytes, "fixture", &ReadLimits::default()).unwrap().values
 }
 
 fn colours(bytes: &[u8]) -> Vec<[f32; 3]> {
@@ -45,8 +45,8 @@ impl Fixture {
         of_size(&self.picture)
     }
 
-    pub(super) fn reference(&self) -> Reference<'_> {
-        Reference { picture: of_size(&self.reference), standard_error: Some(&self.stderr) }
+    pub(super) fn reference(&self) -> ReferencePicture<'_> {
+        ReferencePicture { picture: of_size(&self.reference), standard_error: Some(&self.stderr) }
     }
 
     pub(super) fn expected(&self, of: &str, what: &str) -> f64 {

@@ -24,11 +24,11 @@ mod properties;
 
 pub use error::MeasureError;
 pub use measured::Measured;
-pub use picture::{Picture, Reference};
+pub use picture::{Picture, ReferencePicture};
 pub use region::Region;
 
 /// The function that computes a measure.
-pub type MeasureFn = fn(&Picture, &Reference, Region) -> Result<Measured, MeasureError>;
+pub type MeasureFn = fn(&Picture, &ReferencePicture, Region) -> Result<Measured, MeasureError>;
 
 /// One way to say how far a picture is from its reference.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Mean squared error.
 
 use super::average::average;
-use super::{Measure, MeasureError, Measured, Picture, Reference, Region};
+use super::{Measure, MeasureError, Measured, Picture, ReferencePicture, Region};
 
 /// Mean squared error.
 pub(super) const MEASURE: Measure = Measure {
@@ -18,6 +18,6 @@ pub(super) const MEASURE: Measure = Measure {
 ///
 /// # Errors
 /// Picture and reference differ in size.
-fn mse(picture: &Picture, reference: &Reference, region: Region) -> Result<Measured, MeasureError> {
+fn mse(picture: &Picture, reference: &ReferencePicture, region: Region) -> Result<Measured, MeasureError> {
     average(picture, reference, region, |c| ((c.a - c.r).powi(2), c.noise * c.noise))
 }

@@ -15,7 +15,7 @@ pub struct Picture<'a> {
 
 /// What a picture is compared with.
 #[derive(Clone, Copy, Debug)]
-pub struct Reference<'a> {
+pub struct ReferencePicture<'a> {
     /// Its mean.
     pub picture: Picture<'a>,
     /// Standard error of each mean; `None`: the reference is taken as exact.
@@ -37,7 +37,7 @@ impl Picture<'_> {
     }
 }
 
-impl Reference<'_> {
+impl ReferencePicture<'_> {
     /// That its noise is that of as many pixels.
     pub(super) fn check(&self) -> Result<(), MeasureError> {
         let Picture { width, height, .. } = self.picture;

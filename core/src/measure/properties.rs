@@ -9,7 +9,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
     assert!(off <= tolerance, "{what}: {found} is not {expected}, but {off:e} off");
 }
 
-fn measure(id: &str, picture: &Picture, reference: &Reference, region: Region) -> Measured {
+fn measure(id: &str, picture: &Picture, reference: &ReferencePicture, region: Region) -> Measured {
     (find(id).unwrap().measure)(picture, reference, region).unwrap()
 }
 
@@ -61,7 +61,7 @@ fn ids_are_found_and_unique() {
 #[test]
 fn equal_pictures_differ_by_nothing() {
     let fixture = Fixture::load();
-    let exact = Reference { standard_error: None, ..fixture.reference() };
+    let exact = ReferencePicture { standard_error: None, ..fixture.reference() };
     for m in MEASURES {
         let found = (m.measure)(&exact.picture, &exact, Fixture::WHOLE).unwrap();
         assert_eq!((found.value, found.error, found.reference_share), (0.0, 0.0, 0.0), "{}", m.id);
@@ -78,7 +78,8 @@ fn a_region_is_a_crop() {
     let (width, height) = (region.width(), region.height());
     let [a, r, e] = [&fixture.picture, &fixture.reference, &fixture.stderr].map(|pixels| crop(pixels));
     let picture = Picture { width, height, pixels: &a };
-    let reference = Reference { picture: Picture { width, height, pixels: &r }, standard_error: Some(&e) };
+    let reference =
+        ReferencePicture { picture: Picture { width, height, pixels: &r }, standard_error: Some(&e) };
     // FLIP sees what surrounds a region.
     for m in MEASURES.iter().filter(|m| m.id != "flip") {
         let of_region = (m.measure)(&fixture.picture(), &fixture.reference(), region).unwrap();
@@ -114,7 +115,7 @@ fn any_input_is_measured_or_refused() {
     let overflowing = Picture { width: usize::MAX, height: 2, pixels: &fixture.picture };
     let extremes = [f32::MAX, -f32::MAX, 1e30, -1.0, f32::MIN_POSITIVE, f32::NAN, f32::INFINITY, 0.0];
     let wild: Vec<[f32; 3]> = (0..48 * 36).map(|i| [0, 1, 2].map(|c| extremes[(i + c) % 8])).collect();
-    let reference = |picture| Reference { picture, standard_error: None };
+    let reference = |picture| ReferencePicture { picture, standard_error: None };
     for m in MEASURES {
         let nothing = (m.measure)(&empty, &reference(empty), Region::whole(3, 3)).unwrap();
         assert!(nothing.value.is_nan() && nothing.corrected().is_nan());
@@ -133,7 +134,7 @@ fn any_input_is_measured_or_refused() {
             assert!((m.measure)(&fixture.picture(), &reference(bad), Fixture::WHOLE).is_err());
         }
         let noise = &fixture.stderr[1..];
-        let bad = Reference { standard_error: Some(noise), ..fixture.reference() };
+        let bad = ReferencePicture { standard_error: Some(noise), ..fixture.reference() };
         assert!((m.measure)(&fixture.picture(), &bad, Fixture::WHOLE).is_err());
 
         for (a, r) in [(&wild, &fixture.reference), (&fixture.picture, &wild), (&wild, &wild)] {
@@ -154,7 +155,8 @@ fn the_references_noise_does_not_count_against_a_perfect_picture() {
     let corrected: Vec<f64> = (0..seeds)
         .map(|seed| {
             let noisy = with_noise(truth, |i| fixture.stderr[i], u64::from(seed));
-            let reference = Reference { picture: of_size(&noisy), standard_error: Some(&fixture.stderr) };
+            let reference =
+                ReferencePicture { picture: of_size(&noisy), standard_error: Some(&fixture.stderr) };
             let found = measure("mse", &of_size(truth), &reference, Fixture::WHOLE);
             assert!(found.corrected() < 0.3 * found.value);
             found.value - found.reference_share
@@ -179,10 +181,11 @@ fn correction_helps_where_both_are_noisy() {
         for seed in 0..20 {
             let picture = with_noise(truth, twice, 2 * seed);
             let noisy = with_noise(truth, |i| fixture.stderr[i], 2 * seed + 1);
-            let exact = Reference { picture: of_size(truth), standard_error: None };
+            let exact = ReferencePicture { picture: of_size(truth), standard_error: None };
             let against_truth = measure(id, &of_size(&picture), &exact, Fixture::WHOLE);
             assert_eq!(against_truth.reference_share, 0.0);
-            let reference = Reference { picture: of_size(&noisy), standard_error: Some(&fixture.stderr) };
+            let reference =
+                ReferencePicture { picture: of_size(&noisy), standard_error: Some(&fixture.stderr) };
             let found = measure(id, &of_size(&picture), &reference, Fixture::WHOLE);
             off += (found.value / against_truth.value - 1.0) / 20.0;
             corrected_off += (found.corrected() / against_truth.value - 1.0) / 20.0;
@@ -195,7 +198,7 @@ fn correction_helps_where_both_are_noisy() {
 #[test]
 fn values_fall_with_samples_as_the_slope_says() {
     let fixture = Fixture::load();
-    let exact = Reference { standard_error: None, ..fixture.reference() };
+    let exact = ReferencePicture { standard_error: None, ..fixture.reference() };
     for m in MEASURES {
         let value = |samples: f32| {
             let sigma = |i: usize| fixture.stderr[i].map(|s| s * samples.sqrt().recip());

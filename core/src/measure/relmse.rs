@@ -1,7 +1,7 @@
 //! Relative mean squared error.
 
 use super::average::average;
-use super::{Measure, MeasureError, Measured, Picture, Reference, Region};
+use super::{Measure, MeasureError, Measured, Picture, ReferencePicture, Region};
 
 /// Keeps black pixels from deciding everything (Rousselle, Knaus and Zwicker 2011).
 const EPSILON: f64 = 0.01;
@@ -22,7 +22,7 @@ pub(super) const MEASURE: Measure = Measure {
 ///
 /// # Errors
 /// Picture and reference differ in size.
-fn relmse(picture: &Picture, reference: &Reference, region: Region) -> Result<Measured, MeasureError> {
+fn relmse(picture: &Picture, reference: &ReferencePicture, region: Region) -> Result<Measured, MeasureError> {
     average(picture, reference, region, |c| {
         let scale = c.r * c.r + EPSILON;
         ((c.a - c.r).powi(2) / scale, c.noise * c.noise / scale)

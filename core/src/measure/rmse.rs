@@ -1,6 +1,6 @@
 //! Root of the mean squared error.
 
-use super::{Measure, MeasureError, Measured, Picture, Reference, Region, mse};
+use super::{Measure, MeasureError, Measured, Picture, ReferencePicture, Region, mse};
 
 /// Root of the mean squared error.
 pub(super) const MEASURE: Measure = Measure {
@@ -17,7 +17,7 @@ pub(super) const MEASURE: Measure = Measure {
 ///
 /// # Errors
 /// Picture and reference differ in size.
-fn rmse(picture: &Picture, reference: &Reference, region: Region) -> Result<Measured, MeasureError> {
+fn rmse(picture: &Picture, reference: &ReferencePicture, region: Region) -> Result<Measured, MeasureError> {
     let mse = (mse::MEASURE.measure)(picture, reference, region)?;
     let value = mse.value.sqrt();
     // Not 0/0 where the pictures agree, nor ∞/NaN where nothing was counted.

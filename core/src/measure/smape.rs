@@ -2,7 +2,7 @@
 
 use super::average::average;
 use super::replicate::added_by_noise;
-use super::{Measure, MeasureError, Measured, Picture, Reference, Region};
+use super::{Measure, MeasureError, Measured, Picture, ReferencePicture, Region};
 
 /// Keeps black pixels from being wholly wrong for nothing (Vogels et al. 2018).
 const EPSILON: f64 = 0.01;
@@ -23,7 +23,7 @@ pub(super) const MEASURE: Measure = Measure {
 ///
 /// # Errors
 /// Picture and reference differ in size.
-fn smape(picture: &Picture, reference: &Reference, region: Region) -> Result<Measured, MeasureError> {
+fn smape(picture: &Picture, reference: &ReferencePicture, region: Region) -> Result<Measured, MeasureError> {
     let distance = |a: f64, r: f64| (a - r).abs() / (a.abs() + r.abs() + EPSILON);
     let found = average(picture, reference, region, |c| (distance(c.a, c.r), added_by_noise(c, distance)))?;
     Ok(Measured { reference_share: found.reference_share.max(0.0), ..found })

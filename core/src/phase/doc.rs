@@ -1,15 +1,15 @@
-//! Phase functions as edited.
+//! Phase functions as edited in a scene document.
 
 use super::table::Angle;
 use serde::{Deserialize, Serialize};
 
 // Variants without parameters are written with braces: serde then refuses unknown keys in them too.
 
-/// Phase function, by the cosine between the directions of propagation before and after.
+/// Phase function of the cosine between the directions of propagation before and after scattering.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PhaseDoc {
-    /// The same in every direction.
+    /// Uniform over the sphere.
     Isotropic {},
     /// One Henyey–Greenstein lobe.
     HenyeyGreenstein {
@@ -25,29 +25,29 @@ pub enum PhaseDoc {
         /// Share of the first lobe, 0 to 1.
         forward: f32,
     },
-    /// Molecules.
+    /// Rayleigh scattering by molecules.
     Rayleigh {},
-    /// Dust: a Henyey–Greenstein lobe times 1 + α cos² θ.
+    /// Draine's phase function for dust: a Henyey–Greenstein lobe times 1 + α cos² θ.
     Draine {
         /// Sharpness and direction of the lobe, −1 to 1 exclusive.
         g: f32,
         /// Weight of cos² θ; 0 is Henyey–Greenstein, 1 Cornette and Shanks.
         alpha: f32,
     },
-    /// Droplets of water in visible light.
+    /// Approximate Mie scattering by water droplets in visible light.
     Mie {
         /// Diameter of the droplets in micrometres, up to 50.
         diameter_um: f32,
     },
-    /// Points, linear in cos θ between them and scaled to integrate to 1.
+    /// Table of points, linear in cos θ between them and scaled to integrate to 1.
     Tabulated {
-        /// What the points' first numbers are.
+        /// Meaning of the points' first numbers.
         #[serde(default)]
         angle: Angle,
-        /// The points: angle, rising, and value.
+        /// Points in order of increasing angle value: angle and phase function value.
         #[serde(default, skip_serializing_if = "Vec::is_empty")]
         points: Vec<[f32; 2]>,
-        /// A text file that holds the points instead, relative to the scene file.
+        /// Text file with the points, in place of `points`; relative to the scene file.
         #[serde(default, skip_serializing_if = "String::is_empty")]
         file: String,
     },
@@ -59,35 +59,35 @@ impl Default for PhaseDoc {
     }
 }
 
-/// What a kind of phase function is called, and what it is.
+/// Names and description of a kind of phase function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kind {
-    /// Its name.
+    /// Display name.
     pub name: &'static str,
-    /// Its name where there is little room.
+    /// Short display name.
     pub short: &'static str,
-    /// Its equation and its source.
+    /// Equation and source.
     pub about: &'static str,
 }
 
-/// A number that a kind of phase function has.
+/// Numeric parameter of a kind of phase function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
-    /// Its key in a scene file.
+    /// Key in a scene file.
     pub key: &'static str,
-    /// Its name for people.
+    /// Display name.
     pub label: &'static str,
-    /// Its unit, or nothing.
+    /// Unit; empty if there is none.
     pub unit: &'static str,
-    /// The values that make sense.
+    /// Range of valid values.
     pub range: [f32; 2],
     /// Whether it is edited by factors rather than by steps.
     pub logarithmic: bool,
-    /// What it means.
+    /// Description.
     pub about: &'static str,
 }
 
-/// Close to ±1 a lobe is a needle that single precision cannot hold.
+/// Largest |g|; closer to 1 a lobe is too narrow for single precision.
 const G_MAX: f32 = 0.999;
 
 const fn g(key: &'static str, label: &'static str, about: &'static str) -> Parameter {
@@ -130,7 +130,7 @@ static DIAMETER_UM: Parameter = Parameter {
 };
 
 impl PhaseDoc {
-    /// One of each kind: where a picker starts, and what is tested.
+    /// One phase function of each kind: initial values of a picker, and test cases.
     #[must_use]
     pub fn templates() -> Vec<Self> {
         vec![
@@ -155,7 +155,7 @@ impl PhaseDoc {
         ]
     }
 
-    /// Which kind it is.
+    /// Names and description of the kind.
     #[must_use]
     pub fn kind(&self) -> Kind {
         let [name, short, about] = match self {
@@ -166,7 +166,7 @@ impl PhaseDoc {
                 "p = (1 − g²) / 4π (1 + g² − 2 g cos θ)^1.5. Henyey and Greenstein 1941",
             ],
             Self::TwoLobe { .. } => {
-                ["Two lobes", "Two lobes", "A share of one Henyey–Greenstein lobe, the rest of another"]
+                ["Two lobes", "Two lobes", "Two Henyey–Greenstein lobes: p = w HG(g₁) + (1 − w) HG(g₂)"]
             }
             Self::Rayleigh {} => ["Rayleigh", "Rayleigh", "Molecules: p = 3 (1 + cos² θ) / 16π"],
             Self::Draine { .. } => [
@@ -184,19 +184,19 @@ impl PhaseDoc {
             Self::Tabulated { .. } => [
                 "Tabulated",
                 "Table",
-                "Points of your own, linear in cos θ between them, scaled to integrate to 1",
+                "User-defined points, linear in cos θ between them, scaled to integrate to 1",
             ],
         };
         Kind { name, short, about }
     }
 
-    /// Its numbers, in order.
+    /// Parameters and their values, in order.
     #[must_use]
     pub fn parameters(&self) -> Vec<(&'static Parameter, f32)> {
         self.clone().parameters_mut().into_iter().map(|(parameter, value)| (parameter, *value)).collect()
     }
 
-    /// Its numbers, in order, to be edited.
+    /// Parameters and their values, in order, for editing.
     #[must_use]
     pub fn parameters_mut(&mut self) -> Vec<(&'static Parameter, &mut f32)> {
         match self {

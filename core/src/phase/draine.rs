@@ -1,43 +1,43 @@
-//! Draine 2003 (“Scattering by interstellar dust grains”, ApJ 598): Henyey–Greenstein times 1 + α cos² θ,
+//! Draine 2003 (“Scattering by interstellar dust grains”, ApJ 598): Henyey–Greenstein times 1 + α cos² θ.
 //!
 //! ```text
 //!   p(cos θ) = p_g(cos θ) (1 + α cos² θ) / (1 + α (1 + 2 g²)/3)
 //! ```
 //!
-//! α = 0 is Henyey–Greenstein, α = 1 Cornette and Shanks, and with g = 0 Rayleigh. Sampled by the inverse of the
-//! cumulative distribution, which is the root of a quartic (Jendersie and d'Eon 2023, “An Approximate Mie
-//! Scattering Function for Fog and Cloud Rendering”).
+//! With α = 0 it is Henyey–Greenstein, with α = 1 Cornette and Shanks, and with α = 1, g = 0 Rayleigh.
+//! Sampled by inverting the cumulative distribution, which means solving a quartic (Jendersie and d'Eon 2023,
+//! “An Approximate Mie Scattering Function for Fog and Cloud Rendering”).
 //!
-//! With t² = 1 + g² − 2 g cos θ, from 1 + g at the back to 1 − g in front, the quartic is
-//! t⁴ − 6 A t² + q t + r = 0, A = 1 + g², where only q depends on the random number, and on it linearly.
+//! With t² = 1 + g² − 2 g cos θ, from 1 + g (backward) to 1 − g (forward), the quartic is
+//! t⁴ − 6 A t² + q t + r = 0, A = 1 + g², where only q depends on the random number, linearly.
 
 use super::Lobe;
 use super::henyey_greenstein::HenyeyGreenstein;
 use crate::math::PolarAngle;
 
-/// Below this |g| the quartic's roots lie too close together to be told apart.
+/// |g| below which the quartic's roots are too close together to be distinguished.
 const SMALL_G: f64 = 0.01;
-/// Newton's method takes 3 to 8 steps there; halving the bracket gets there in so many.
+/// Step limit of Newton's method, which takes 3 to 8 steps; bisection alone converges within it.
 const MAX_STEPS: usize = 48;
-/// Below this α the lobe is Henyey–Greenstein to every digit that single precision has.
+/// α below which the lobe equals Henyey–Greenstein in single precision.
 const SMALL_ALPHA: f32 = 1e-7;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Draine {
     hg: HenyeyGreenstein,
     alpha: f32,
-    /// 1/(1 + α (1 + 2 g²)/3).
+    /// Normalisation 1/(1 + α (1 + 2 g²)/3).
     scale: f32,
 }
 
 impl Draine {
-    /// With |g| < 1 and α ≥ 0.
+    /// Creates the lobe; |g| < 1 and α ≥ 0.
     pub fn new(g: f32, alpha: f32) -> Self {
         Self { hg: HenyeyGreenstein { g }, alpha, scale: 1.0 / (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0) }
     }
 
-    /// The angle by h = (1 + g − t)/g, from 0 at the back to 2 in front: cos θ = h − 1 + g h (2 − h)/2, which needs no
-    /// division by g. Both ends keep their digits.
+    /// Angle from h = (1 + g − t)/g, which is 0 backward and 2 forward: cos θ = h − 1 + g h (2 − h)/2,
+    /// without a division by g. Precise at both ends.
     fn angle(g: f64, h: f64) -> PolarAngle {
         let rest = 2.0 - h;
         PolarAngle {
@@ -46,7 +46,7 @@ impl Draine {
         }
     }
 
-    /// h of the random number u, by the quartic's root t = 1 + g − g h.
+    /// h for the random number u, from the quartic's root t = 1 + g − g h.
     fn by_quartic(g: f64, alpha: f64, u: f64) -> f64 {
         let a = 1.0 + g * g;
         let per_alpha = 12.0 * g * g / alpha;
@@ -66,7 +66,7 @@ impl Draine {
         (1.0 + g - t) / g
     }
 
-    /// h of the random number u, by Newton's method from the root at g = 0: for small g.
+    /// h for the random number u, by Newton's method from the root at g = 0; for small g.
     fn by_newton(g: f64, alpha: f64, u: f64) -> f64 {
         // cos³ θ + k cos θ = (1 + k)(2 u − 1), k = 3/α.
         let third = 1.0 / alpha;
@@ -74,7 +74,7 @@ impl Draine {
         let c = (half.abs() + (half * half + third * third * third).sqrt()).cbrt();
         let mut h = 1.0 + (c - third / c).copysign(half);
         let total = 2.0 * (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0) / (1.0 - g * g);
-        // A root is bracketed throughout: where α is large, Newton's steps may overshoot in the lobe's waist.
+        // The root stays bracketed: for large α Newton's steps may overshoot where the lobe is narrowest.
         let (mut lo, mut hi) = (0.0, 2.0);
         for _ in 0..MAX_STEPS {
             let t0 = 1.0 + g;
@@ -105,7 +105,7 @@ impl Lobe for Draine {
         self.hg.value(theta) * (1.0 + self.alpha * cosine * cosine) * self.scale
     }
 
-    /// In double precision: the quartic's terms cancel by a factor of g³.
+    /// Samples in double precision, because the quartic's terms cancel by a factor of g³.
     #[inline(never)]
     fn sample(&self, u: f32) -> PolarAngle {
         if self.alpha < SMALL_ALPHA {
@@ -118,7 +118,7 @@ impl Lobe for Draine {
         if self.hg.g < 0.0 { theta.mirrored() } else { theta }
     }
 
-    /// g (1 + α (3 + 2 g²)/5) / (1 + α (1 + 2 g²)/3).
+    /// Mean cosine g (1 + α (3 + 2 g²)/5) / (1 + α (1 + 2 g²)/3).
     fn mean_cosine(&self) -> f32 {
         let g = self.hg.g;
         g * (1.0 + self.alpha * (3.0 + 2.0 * g * g) / 5.0) * self.scale
@@ -129,7 +129,7 @@ impl Lobe for Draine {
 mod tests {
     use super::*;
 
-    /// The share of the lobe behind an angle, in closed form, which needs no g > 0 to divide by.
+    /// Integral of the lobe from the backward direction to h, in closed form without a division by g.
     fn below(g: f64, alpha: f64, h: f64) -> f64 {
         let (t0, t) = (1.0 + g, 1.0 + g - g * h);
         let even = 3.0 * (2.0 - h * t0).powi(2) + t * t0 * h * h;

@@ -1,4 +1,4 @@
-//! The same in every direction: p = 1/(4π).
+//! Isotropic phase function: p = 1/(4π).
 
 use super::Lobe;
 use crate::math::{INV_4PI, PolarAngle};

@@ -1,9 +1,11 @@
-//! Droplets of water of one diameter in visible light, fitted to Lorenz–Mie theory: a Henyey–Greenstein lobe for
-//! diffraction and a Draine lobe for the rest (Jendersie and d'Eon 2023, “An Approximate Mie Scattering Function for
-//! Fog and Cloud Rendering”, equations 4 and 7–22).
+//! Approximate Mie scattering by water droplets of one diameter in visible light.
+//!
+//! A fit to Lorenz–Mie theory by a Henyey–Greenstein lobe for diffraction and a Draine lobe for the remainder
+//! (Jendersie and d'Eon 2023, “An Approximate Mie Scattering Function for Fog and Cloud Rendering”, equations
+//! 4 and 7–22).
 //!
 //! ```text
-//!   p = (1 − w) p_HG(g_HG) + w p_Draine(g_D, α),   all four functions of the diameter
+//!   p = (1 − w) p_HG(g_HG) + w p_Draine(g_D, α),   all four parameters functions of the diameter
 //! ```
 
 use super::Lobe;
@@ -15,11 +17,11 @@ use crate::math::PolarAngle;
 pub(super) struct Mie {
     diffracted: HenyeyGreenstein,
     refracted: Draine,
-    /// The second lobe's share w, 0 to 1.
+    /// Weight w of the second lobe, 0 to 1.
     share: f32,
 }
 
-/// The parameters of both lobes.
+/// Fitted parameters of both lobes.
 #[derive(Clone, Copy, Debug)]
 struct Fit {
     g_hg: f64,
@@ -29,7 +31,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// Of droplets of a diameter in micrometres, 0 < d ≤ 50. The pieces meet only roughly.
+    /// Fit for droplets of a diameter in micrometres, 0 < d ≤ 50. The pieces are only roughly continuous.
     fn of(d: f64) -> Self {
         let l = d.ln();
         if d <= 0.1 {
@@ -66,7 +68,7 @@ impl Fit {
 }
 
 impl Mie {
-    /// Of droplets of a diameter in micrometres, 0 < d ≤ 50.
+    /// Creates the phase function of droplets of a diameter in micrometres, 0 < d ≤ 50.
     pub fn new(diameter_um: f32) -> Self {
         let fit = Fit::of(f64::from(diameter_um));
         Self {
@@ -82,7 +84,7 @@ impl Lobe for Mie {
         self.share * self.refracted.value(theta) + (1.0 - self.share) * self.diffracted.value(theta)
     }
 
-    /// Picks a lobe, then uses what is left of the number in it.
+    /// Selects a lobe and reuses the remainder of the random number to sample it.
     fn sample(&self, u: f32) -> PolarAngle {
         if u < self.share {
             self.refracted.sample(u / self.share)
@@ -115,7 +117,7 @@ mod tests {
         }
     }
 
-    /// The coefficients a_n and b_n of a sphere of real index `m` and size parameter x: Lorenz–Mie theory as in
+    /// Coefficients a_n and b_n of a sphere of real index `m` and size parameter x: Lorenz–Mie theory as in
     /// Bohren and Huffman 1983, chapter 4, with D_n by downward recurrence.
     fn series(m: f64, x: f64) -> Vec<(Complex, Complex)> {
         let terms = (x + 4.05 * x.cbrt() + 2.0) as usize;
@@ -142,7 +144,7 @@ mod tests {
             .collect()
     }
 
-    /// Scattering efficiency, and it times the mean cosine.
+    /// Scattering efficiency, and its product with the mean cosine.
     fn moments(x: f64, series: &[(Complex, Complex)]) -> (f64, f64) {
         let (mut scattered, mut forward) = (0.0, 0.0);
         let mut last: Option<(Complex, Complex)> = None;
@@ -159,7 +161,7 @@ mod tests {
         (2.0 / (x * x) * scattered, 4.0 / (x * x) * forward)
     }
 
-    /// |S₁|² + |S₂|² of unpolarised light at a cosine.
+    /// Intensity |S₁|² + |S₂|² of unpolarised light at a cosine.
     fn intensity(series: &[(Complex, Complex)], cosine: f64) -> f64 {
         let (mut pi, mut pi_before) = (1.0, 0.0);
         let (mut s1, mut s2) = ([0.0; 2], [0.0; 2]);
@@ -176,8 +178,8 @@ mod tests {
         s1.into_iter().chain(s2).map(|s| s * s).sum()
     }
 
-    /// Mean cosine, and the phase function at some cosines, of droplets of about one diameter in visible light:
-    /// 400 to 700 nm, diameters within a tenth, which smooths resonances away.
+    /// Mean cosine, and the phase function at some cosines, of droplets in visible light, averaged over 400
+    /// to 700 nm and over diameters within a tenth, which smooths out resonances.
     fn theory(diameter_um: f64, cosines: &[f64]) -> (f64, Vec<f64>) {
         let (mut all, mut forward) = (0.0, 0.0);
         let mut at = vec![0.0; cosines.len()];
@@ -201,7 +203,7 @@ mod tests {
 
     #[test]
     fn the_series_has_its_published_values() {
-        // Small spheres scatter as molecules do: Q = 8/3 x⁴ ((m² − 1)/(m² + 2))².
+        // Small spheres are in the Rayleigh regime: Q = 8/3 x⁴ ((m² − 1)/(m² + 2))².
         let (q, forward) = moments(0.01, &series(1.33, 0.01));
         let expected = 8.0 / 3.0 * 1e-8 * ((1.33f64.powi(2) - 1.0) / (1.33f64.powi(2) + 2.0)).powi(2);
         assert!((q / expected - 1.0).abs() < 1e-3 && forward / q < 1e-3);
@@ -216,8 +218,8 @@ mod tests {
         assert!((integral - 1.0).abs() < 1e-3, "{integral}");
     }
 
-    /// The fit is of the lobe's shape, not of its mean cosine: that is up to 0.02 too large for fog and clouds, and
-    /// up to 0.16 where the diameter is near half a wavelength.
+    /// The lobe's shape is fitted, not its mean cosine, which is up to 0.02 too large for fog and clouds, and
+    /// off by up to 0.16 where the diameter is near half a wavelength.
     #[test]
     fn the_mean_cosine_is_near_that_of_lorenz_and_mie() {
         for (diameters, tolerance) in [
@@ -232,7 +234,8 @@ mod tests {
         }
     }
 
-    /// In decades, over the angles from 5° to 130°; beyond are rainbow and glory, which two lobes do not have.
+    /// Error in decades, over angles from 5° to 130°; beyond are rainbow and glory, which two lobes cannot
+    /// represent.
     #[test]
     fn the_lobe_has_the_shape_of_lorenz_and_mie() {
         let cosines: Vec<f64> = (1..=26).map(|i| (5.0 * f64::from(i)).to_radians().cos()).collect();

@@ -1,4 +1,4 @@
-//! Phase functions: which way light scatters.
+//! Phase functions: angular distributions of scattered light.
 //!
 //! **Direction convention, for the whole program:** both directions are directions of *propagation*,
 //! `omega_in` before and `omega_out` after the event, so that `cos θ = omega_in · omega_out` and
@@ -27,17 +27,17 @@ use rayleigh::Rayleigh;
 use table::Table;
 use two_lobe::TwoLobe;
 
-/// The contract of one phase function.
+/// Interface of a phase function.
 trait Lobe {
     /// Value and density, per steradian.
     fn value(&self, theta: PolarAngle) -> f32;
     /// Draws the scattering angle from a number uniform in [0, 1).
     fn sample(&self, u: f32) -> PolarAngle;
-    /// ∫ p cos θ dω.
+    /// Mean cosine ∫ p cos θ dω.
     fn mean_cosine(&self) -> f32;
 }
 
-/// A phase function, ready to be evaluated and sampled.
+/// Phase function, ready to be evaluated and sampled.
 #[derive(Clone, Debug)]
 pub struct Phase {
     kind: Kind,
@@ -70,8 +70,8 @@ macro_rules! each {
 }
 
 impl Phase {
-    /// Freezes an edited phase function, whose parameters validation has checked and whose table, if it is in a
-    /// file, has been read into it. A table that makes no sense is isotropic.
+    /// Builds the phase function of a document. Validation has checked its parameters, and a table in a file
+    /// has been read into it. An invalid table is replaced by the isotropic phase function.
     #[must_use]
     pub fn new(doc: &PhaseDoc) -> Self {
         let kind = match doc {
@@ -94,13 +94,13 @@ impl Phase {
         phase
     }
 
-    /// ∫ p cos θ dω.
+    /// Mean cosine ∫ p cos θ dω.
     #[must_use]
     pub fn mean_cosine(&self) -> f32 {
         self.mean_cosine
     }
 
-    /// Value by the cosine of the scattering angle, per steradian: to draw the lobe with.
+    /// Value at a cosine of the scattering angle, per steradian; for plots of the lobe.
     #[must_use]
     pub fn value(&self, cosine: f32) -> f32 {
         let theta = PolarAngle { one_minus_cos: 1.0 - cosine, one_plus_cos: 1.0 + cosine };
@@ -117,7 +117,7 @@ impl Phase {
         self.at(PolarAngle::between(omega_in, omega_out))
     }
 
-    /// Draws the direction after scattering; its density is [`Self::density`].
+    /// Draws the direction after scattering and returns it with its density, which is [`Self::density`].
     #[must_use]
     pub fn sample(&self, omega_in: Vec3, u: Vec2) -> (Vec3, f32) {
         let theta = each!(self, lobe => lobe.sample(u.x));

@@ -1,4 +1,4 @@
-//! Rayleigh: p(cos θ) = 3/(16π) (1 + cos² θ), light scattered by molecules.
+//! Rayleigh scattering by molecules: p(cos θ) = 3/(16π) (1 + cos² θ).
 
 use super::Lobe;
 use crate::math::PolarAngle;
@@ -13,7 +13,7 @@ impl Lobe for Rayleigh {
         3.0 / (16.0 * PI) * (1.0 + cosine * cosine)
     }
 
-    /// Inverts the cumulative distribution, a cubic in cos θ, by Cardano (Frisvad 2011).
+    /// Inverts the cumulative distribution, a cubic in cos θ, by Cardano's formula (Frisvad 2011).
     fn sample(&self, u: f32) -> PolarAngle {
         let z = 2.0 * (2.0 * u - 1.0);
         let root = (z * z + 1.0).sqrt();

@@ -1,5 +1,7 @@
-//! A phase function by points: linear in cos θ between them, held beyond the first and last, scaled to integrate
-//! to 1 over the sphere.
+//! Tabulated phase function.
+//!
+//! It is linear in cos θ between points, constant beyond the first and last, and scaled to integrate to 1
+//! over the sphere.
 
 use super::Lobe;
 use crate::math::PolarAngle;
@@ -7,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// The most points of a table.
+/// Largest number of points of a table.
 pub const MAX_POINTS: usize = 65_536;
 
-/// What a table's first column is.
+/// Meaning of a table's first column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Angle {
@@ -22,7 +24,7 @@ pub enum Angle {
 }
 
 impl Angle {
-    /// The values that make sense.
+    /// Range of valid values.
     #[must_use]
     pub fn range(self) -> [f32; 2] {
         match self {
@@ -31,7 +33,7 @@ impl Angle {
         }
     }
 
-    /// 1 − cos θ, exact where the angle is small.
+    /// 1 − cos θ, precise for small angles.
     fn one_minus_cos(self, value: f32) -> f64 {
         match self {
             Self::Cosine => 1.0 - f64::from(value),
@@ -40,55 +42,55 @@ impl Angle {
     }
 }
 
-/// Why points make no phase function.
+/// Reason why points are not a valid phase function.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
     /// Fewer than two points.
     #[error("has {0} points; a table needs at least two")]
     TooFew(usize),
-    /// More than fit.
-    #[error("has {0} points; at most {MAX_POINTS} are read")]
+    /// More points than [`MAX_POINTS`].
+    #[error("has {0} points; at most {MAX_POINTS} are supported")]
     TooMany(usize),
     /// A number that is NaN or infinite.
-    #[error("point {0} holds a number that is not finite")]
+    #[error("point {0} has a number that is not finite")]
     NotFinite(usize),
     /// A value below zero.
-    #[error("point {0} has the value {1}; a phase function is nowhere negative")]
+    #[error("point {0} has the value {1}; a phase function must not be negative")]
     Negative(usize, f32),
-    /// An angle that does not exist.
-    #[error("point {0} stands at {1}, outside {2} to {3}")]
+    /// An angle outside the valid range.
+    #[error("point {0} is at {1}, outside {2} to {3}")]
     Outside(usize, f32, f32, f32),
-    /// An angle that does not follow the one before.
-    #[error("point {0} stands at {1}, not beyond the point before it: the first numbers must rise")]
+    /// An angle that is not greater than the one before.
+    #[error("point {0} is at {1}, which is not beyond the point before it: the first numbers must increase")]
     NotRising(usize, f32),
-    /// Nothing is scattered anywhere.
+    /// All values are zero.
     #[error("has the value 0 everywhere, which cannot be scaled to integrate to 1")]
     Dark,
 }
 
-/// One point, and the share of the lobe that lies before it.
+/// One point, with the share of the distribution before it.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// 1 − cos θ, rising.
+    /// 1 − cos θ, increasing.
     one_minus_cos: f32,
-    /// Per steradian.
+    /// Value per steradian.
     value: f32,
-    /// Share of scattering at smaller angles.
+    /// Probability of scattering at smaller angles.
     share: f32,
 }
 
-/// A tabulated phase function.
+/// Tabulated phase function.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    /// From 1 − cos θ = 0 to 2, at least two.
+    /// Nodes from 1 − cos θ = 0 to 2, at least two.
     nodes: Arc<[Node]>,
     mean_cosine: f32,
 }
 
-/// Whether points, counted from 1 in messages, are a phase function.
+/// Checks whether points are a valid phase function.
 ///
 /// # Errors
-/// The first thing that is wrong.
+/// The first fault found; points are counted from 1.
 pub fn check(angle: Angle, points: &[[f32; 2]]) -> Result<(), TableError> {
     if points.len() < 2 {
         return Err(TableError::TooFew(points.len()));
@@ -120,16 +122,16 @@ pub fn check(angle: Angle, points: &[[f32; 2]]) -> Result<(), TableError> {
 }
 
 impl Table {
-    /// Scales points to integrate to 1.
+    /// Builds the table, scaled to integrate to 1.
     ///
     /// # Errors
-    /// When they are not a phase function.
+    /// The first fault of the points, as in [`check`].
     pub fn new(angle: Angle, points: &[[f32; 2]]) -> Result<Self, TableError> {
         check(angle, points)?;
         let mut rows: Vec<(f64, f64)> =
             points.iter().map(|[at, value]| (angle.one_minus_cos(*at), f64::from(*value))).collect();
         rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Angles that differ by less than a cosine's rounding are one.
+        // Angles that differ by less than the rounding of a cosine are merged.
         rows.dedup_by(|b, a| b.0 as f32 <= a.0 as f32);
         if let (Some(first), Some(last)) = (rows.first().copied(), rows.last().copied()) {
             if first.0 > 0.0 {
@@ -139,7 +141,8 @@ impl Table {
                 rows.push((2.0, last.1));
             }
         }
-        // Linear pieces from a to b over a width w: ∫ p = w (a + b)/2, ∫ x p = w (x₀ (2 a + b) + x₁ (a + 2 b))/6.
+        // Linear pieces from a to b over a width w:
+        // ∫ p = w (a + b)/2, ∫ x p = w (x₀ (2 a + b) + x₁ (a + 2 b))/6.
         let pieces = |p: &[(f64, f64)]| match *p {
             [(x0, a), (x1, b)] => {
                 ((x1 - x0) * (a + b) / 2.0, (x1 - x0) * (x0 * (2.0 * a + b) + x1 * (a + 2.0 * b)) / 6.0)
@@ -164,7 +167,7 @@ impl Table {
         Ok(Self { nodes: nodes.into(), mean_cosine: (1.0 - moment / total) as f32 })
     }
 
-    /// The piece whose first node is the last that `before` holds for.
+    /// Piece whose first node is the last one for which `before` is true.
     #[inline]
     fn piece(&self, before: impl Fn(&Node) -> bool) -> (&Node, &Node) {
         let last = self.nodes.len() - 1;
@@ -182,17 +185,17 @@ impl Lobe for Table {
         a.value + (b.value - a.value) * s
     }
 
-    /// Inverts the cumulative distribution: within a piece, a quadratic.
+    /// Inverts the cumulative distribution, which is quadratic within a piece.
     #[inline(never)]
     fn sample(&self, u: f32) -> PolarAngle {
         let (a, b) = self.piece(|node| node.share <= u);
-        // a y + (b − a) y²/2 = rest, with the root's form that stays good where a = b.
+        // a y + (b − a) y²/2 = rest, with the form of the root that is stable for a = b.
         let rest = ((u - a.share) / (b.share - a.share)).clamp(0.0, 1.0) * 0.5 * (a.value + b.value);
         let root = (a.value * a.value + 2.0 * (b.value - a.value) * rest).max(0.0).sqrt();
         let y = if a.value + root > 0.0 { (2.0 * rest / (a.value + root)).min(1.0) } else { 0.0 };
         let width = b.one_minus_cos - a.one_minus_cos;
         let x = a.one_minus_cos + width * y;
-        // Rounding must not put a sample on an end where the density is zero; the middle is as good as any place.
+        // Rounding must not put a sample at an end where the density is zero; it moves to the middle instead.
         let lost = (x == a.one_minus_cos && a.value == 0.0) || (x == b.one_minus_cos && b.value == 0.0);
         PolarAngle::from_one_minus_cos(if lost { a.one_minus_cos + 0.5 * width } else { x })
     }
@@ -232,7 +235,7 @@ mod tests {
 
     #[test]
     fn values_are_linear_scaled_and_held_beyond_the_ends() {
-        // 1 at the back up to 3 in front: mean 2.
+        // From 1 (backward) to 3 (forward): mean 2.
         let table = Table::new(Angle::Cosine, &[[-1.0, 1.0], [1.0, 3.0]]).unwrap();
         let at = |t: &Table, c: f32| f64::from(t.value(PolarAngle::from_one_minus_cos(1.0 - c))) * 2.0 * TAU;
         for (c, expected) in [(-1.0, 0.5), (0.0, 1.0), (0.5, 1.25), (1.0, 1.5)] {

@@ -8,7 +8,7 @@ use crate::math::PolarAngle;
 pub(super) struct TwoLobe {
     pub first: HenyeyGreenstein,
     pub second: HenyeyGreenstein,
-    /// The first lobe's share w, 0 to 1.
+    /// Weight w of the first lobe, 0 to 1.
     pub share: f32,
 }
 
@@ -17,7 +17,7 @@ impl Lobe for TwoLobe {
         self.share * self.first.value(theta) + (1.0 - self.share) * self.second.value(theta)
     }
 
-    /// Picks a lobe, then uses what is left of the number in it.
+    /// Selects a lobe and reuses the remainder of the random number to sample it.
     fn sample(&self, u: f32) -> PolarAngle {
         if u < self.share {
             self.first.sample(u / self.share)

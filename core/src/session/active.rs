@@ -1,4 +1,4 @@
-//! One view while it renders: its film, its limits, its next pass.
+//! State of one view while it renders: film, limits and next pass.
 
 use super::pass::Work;
 use super::stopping::{Ending, ErrorTarget, ending};
@@ -12,10 +12,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
-/// A pass lasts about this long, so that pausing and stepping answer soon.
+/// Target duration of a pass; short, so that pausing and stepping respond quickly.
 const PASS_SECONDS: f64 = 0.15;
 
-/// A view that renders.
+/// A view that is being rendered.
 pub(super) struct Active {
     pub generation: u64,
     pub current: Arc<AtomicU64>,
@@ -25,7 +25,7 @@ pub(super) struct Active {
     pub spp: u64,
     pub limits: Limits,
     pub role: Role,
-    /// Names the image that it converges to.
+    /// Fingerprint of the image that the view converges to.
     pub target: String,
     pub paused: bool,
     pub steps: u32,
@@ -33,12 +33,12 @@ pub(super) struct Active {
     pub seconds: f64,
     pub cpu_seconds: f64,
     pub tally: Tally,
-    /// What is known of the picture's error, if there is a limit to it.
+    /// Error at the planned points, recorded if there is a limit on the error.
     error: ErrorTarget,
     cost: CostScatter,
 }
 
-/// How CPU seconds per sample scatter over passes: Σ over passes, weighted by their samples.
+/// Scatter of the CPU seconds per sample between passes, as sums over passes.
 #[derive(Clone, Copy, Debug, Default)]
 struct CostScatter {
     passes: f64,
@@ -57,7 +57,7 @@ impl CostScatter {
         self.squares += seconds * seconds / samples;
     }
 
-    /// Standard error of the cost per sample, relative to it; infinite before the second pass.
+    /// Relative standard error of the cost per sample; infinite before the second pass.
     fn relative_error(&self) -> f64 {
         if self.passes < 2.0 || self.seconds <= 0.0 {
             return f64::INFINITY;
@@ -72,7 +72,7 @@ impl Active {
         self.ending().is_some()
     }
 
-    /// Why it has ended, if it has.
+    /// Reason why the view has ended, if it has.
     pub fn ending(&self) -> Option<Ending> {
         ending(&self.limits, (self.spp, self.seconds, self.cpu_seconds), &self.error)
     }
@@ -95,7 +95,8 @@ impl Active {
         Work { probe: &self.probe, cancel: CancelToken::new(&self.current, self.generation) }
     }
 
-    /// Samples of the next pass: as many as fit its time, at most twice the last, never past a limit.
+    /// Samples of the next pass: as many as fit its target duration, at most twice the previous pass, never
+    /// beyond a limit.
     fn next_samples(&self) -> u64 {
         if self.paused || self.spp == 0 {
             return 1;
@@ -111,7 +112,8 @@ impl Active {
             .clamp(1.0, 4096.0) as u64;
         let count = fitting.min(self.last_pass.saturating_mul(2)).max(1);
         let count = self.limits.spp.map_or(count, |spp| count.min(spp - self.spp));
-        // Where the error may end it, what it is after which samples must not depend on time.
+        // With a limit on the error, the sample counts at which the error is evaluated must not depend on
+        // time.
         let count = match self.limits.relative_error {
             Some(_) => count.min(ErrorTarget::until_point(self.spp)),
             None => count,
@@ -119,7 +121,7 @@ impl Active {
         count.min(self.probe.until_raise(self.spp))
     }
 
-    /// Raises the majorants if it is time, and there is something to raise.
+    /// Raises the majorants if this is due; returns whether any was raised.
     pub fn raise_majorants(&mut self) -> bool {
         self.probe.raise_majorants(self.spp)
     }
@@ -152,7 +154,7 @@ impl Active {
         }
     }
 
-    /// A view that has not rendered yet, and has no film yet.
+    /// Creates a view without samples and without a film.
     pub fn new(
         (generation, current): (u64, Arc<AtomicU64>),
         probe: Probe,
@@ -180,17 +182,18 @@ impl Active {
         }
     }
 
-    /// Gives it its film, in the memory of another if possible.
+    /// Attaches the film, in the memory of an earlier film if possible.
     pub fn load(&mut self, film: Film) {
         self.film = film.reused(self.probe.scene.width as usize, self.probe.scene.height as usize);
     }
 
-    /// Runs one pass of at most `most` samples; false if it was cancelled, which leaves the view unusable.
+    /// Runs one pass of at most `most` samples. Returns false if it was cancelled, which leaves the view
+    /// unusable.
     pub fn advance(&mut self, rows_per_task: NonZeroUsize, most: u64) -> bool {
         let count = self.next_samples().min(most).max(1);
         let began = Instant::now();
         let samples = self.spp..self.spp + count;
-        // The film is lent to the pass; of a cancelled one only the memory is worth having back.
+        // The film is moved into the pass; after cancellation only its memory can be reused.
         let mut film = std::mem::replace(&mut self.film, Film::new(0, 0));
         let cost = self.pool.install(|| self.work().add_samples(&mut film, &samples, rows_per_task));
         self.film = film;

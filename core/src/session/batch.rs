@@ -1,4 +1,4 @@
-//! A render to its end on the caller's thread, with a clock: what benchmarks run.
+//! Synchronous rendering on the thread of the caller, with timing; used by benchmarks.
 
 use super::Probe;
 use super::pass::Work;
@@ -9,33 +9,33 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::num::NonZeroUsize;
 use std::time::Instant;
 
-/// When a batch ends.
+/// End condition of a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Budget {
-    /// After so many seconds of wall-clock time; the last pass is made to fit. Every pixel gets one sample at least.
+    /// Wall-clock seconds; the last pass is shortened to fit. Every pixel gets at least one sample.
     Seconds(f64),
-    /// After so many samples per pixel, of which there may be none.
+    /// Samples per pixel; may be 0.
     Samples(u64),
 }
 
-/// A film with all that it has cost.
+/// A film with the cost of rendering it.
 #[derive(Clone, Debug)]
 pub struct Batch {
-    /// The picture.
+    /// The rendered film.
     pub film: Film,
     /// Samples per pixel.
     pub spp: u64,
     /// Seconds from the first path to the last.
     pub wall_seconds: f64,
-    /// CPU seconds of the whole process meanwhile: tracing, film, threads that wait.
+    /// CPU seconds of the whole process in this time: tracing, film and waiting threads.
     pub cpu_seconds: f64,
     /// Paths and look-ups.
     pub tally: Tally,
-    /// What its paths were traced with, majorants that were raised on the way included: traces them again.
+    /// Probe that replays the paths, including majorants that were raised on the way.
     pub probe: Probe,
 }
 
-/// Renders with what `probe` traces on the threads of `pool`, as a session would.
+/// Renders with `probe` on the threads of `pool`, as a session would.
 #[must_use]
 pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
     let mut probe = probe.afresh();
@@ -49,7 +49,7 @@ pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
     while pass > 0 {
         pass = pass.min(probe.until_raise(spp));
         let work = Work { probe: &probe, cancel: CancelToken::NEVER };
-        // Nobody cancels it.
+        // `CancelToken::NEVER` is never cancelled.
         let cost = pool.install(|| work.add_samples(&mut film, &(spp..spp + pass), NonZeroUsize::MIN));
         let cost = cost.unwrap_or_default();
         tally.merge(&cost.tally);
@@ -60,7 +60,8 @@ pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
             Budget::Seconds(limit) => {
                 let elapsed = began.elapsed().as_secs_f64();
                 let fitting = (limit - elapsed) / elapsed * spp as f64;
-                // Half of what fits, so that a wrong guess does not overrun, but no end of tiny passes.
+                // Half of the samples that fit, so that a wrong estimate does not overrun; all of them when
+                // few are left, to avoid many tiny passes.
                 let share = if fitting > 8.0 { 0.5 * fitting } else { fitting };
                 (share.max(0.0) as u64).min(4 * spp)
             }
@@ -70,8 +71,9 @@ pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
     Batch { film, spp, wall_seconds, cpu_seconds, tally, probe }
 }
 
-/// What a film of so many samples per pixel is traced with. Where majorants are raised by what its samples find, those that
-/// come before the last raise are traced for it, on as many threads as are given, or one per core; elsewhere nothing is.
+/// Returns the probe with which a film of this many samples per pixel is traced. Where the samples raise the
+/// majorants, the samples before the last raise are traced to reproduce it, on `threads` threads or one per
+/// core; otherwise nothing is traced.
 ///
 /// # Errors
 /// When the operating system refuses a thread.
@@ -141,8 +143,8 @@ mod tests {
         }
     }
 
-    /// The paths that a raised probe replays are those of the film, also if one probe is rendered twice, and if the samples
-    /// before the last raise alone were traced for it.
+    /// The paths replayed by a raised probe are those of the film, also if a probe is rendered twice, and if
+    /// only the samples before the last raise were traced.
     #[test]
     fn a_batch_raises_majorants_and_its_probe_replays_every_sample() {
         let mut doc = doc();

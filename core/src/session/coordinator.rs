@@ -1,4 +1,4 @@
-//! The thread that owns the films and decides which view gets the next pass.
+//! Coordinator thread, which owns the films and schedules the passes of all views.
 
 use super::active::Active;
 use super::job_cache::JobCache;
@@ -15,12 +15,12 @@ use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-/// The first coarse picture has about this many paths, one per block of pixels.
+/// Approximate number of paths of the first coarse image, one per block of pixels.
 const COARSE_PATHS: usize = 8192;
-/// A finer preview is worth it only if a whole pass would take longer than this.
+/// A finer preview is rendered only if a whole pass would take longer than this.
 const FINE_PREVIEW_SECONDS: f64 = 0.2;
 
-/// Workers take a row at a time: few enough to stop soon and to share the last rows of a pass.
+/// Rows per task: one, so that workers stop soon and share the last rows of a pass.
 const ROWS_PER_TASK: NonZeroUsize = NonZeroUsize::MIN;
 
 /// Runs until the mailbox is closed.
@@ -37,7 +37,7 @@ pub(super) fn run(mailbox: &Mailbox, library: Library) {
         let idle = !coordinator.views.values().any(Active::runnable);
         let Some(commands) = mailbox.take(idle) else { return };
         for command in commands {
-            coordinator.obey(command);
+            coordinator.execute(command);
         }
         coordinator.advance_next();
     }
@@ -47,15 +47,15 @@ struct Coordinator<'a> {
     mailbox: &'a Mailbox,
     cache: JobCache,
     views: BTreeMap<ViewId, Active>,
-    /// Views that the user has paused; they stay so through edits and failures.
+    /// Views that the user has paused; kept through edits and failures.
     paused: BTreeSet<ViewId>,
     scheduler: Scheduler,
-    /// Films of views whose pass was broken off for what comes next.
+    /// Films of views whose pass was cancelled, kept for their next job.
     cancelled: BTreeMap<ViewId, Film>,
 }
 
 impl Coordinator<'_> {
-    fn obey(&mut self, command: Command) {
+    fn execute(&mut self, command: Command) {
         match command {
             Command::Start { view, generation, job } => self.start(view, generation, &job),
             Command::Remove { view } => {
@@ -87,13 +87,13 @@ impl Coordinator<'_> {
         }
     }
 
-    /// Gives the next pass to the view whose turn it is.
+    /// Runs the next pass of the view chosen by the scheduler.
     fn advance_next(&mut self) {
         let Some((id, most)) = self.scheduler.next(&self.views) else { return };
         let contenders = self.views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
         let Some(view) = self.views.get_mut(&id) else { return };
         let before = view.cpu_seconds;
-        // A panicking worker must not take the session with it.
+        // A panicking worker must not end the session.
         let pass =
             catch_unwind(AssertUnwindSafe(|| view.advance(ROWS_PER_TASK, most).then(|| view.snapshot())));
         self.scheduler.note(view.role, view.cpu_seconds - before, contenders);
@@ -126,7 +126,7 @@ impl Coordinator<'_> {
             self.mailbox.note_cancelled(id, generation);
         }
         let film = broken_off.or(ended.map(|view| view.film)).unwrap_or(Film::new(0, 0));
-        // Nobody waits for it any more: a closing session must not build all that was asked of it.
+        // A newer generation replaces this one: a closing session must not build every queued job.
         if !CancelToken::new(&self.mailbox.current(id), generation).is_active() {
             return;
         }
@@ -143,7 +143,7 @@ impl Coordinator<'_> {
                 return self.fail(id, generation, internal_error(&*panic));
             }
         }
-        // Tens of megabytes, for which the first picture does not wait.
+        // The film takes tens of megabytes; the first image does not wait for its allocation.
         view.load(film);
         self.views.insert(id, view);
     }
@@ -151,8 +151,8 @@ impl Coordinator<'_> {
     fn activate(&mut self, id: ViewId, generation: u64, job: &Job) -> Result<Active, String> {
         let doc = &job.doc;
         let pool = self.cache.pool(doc.render.threads)?;
-        // The view's own workers read its files: no more threads than were asked for, and none of the
-        // process's that would outlive the session.
+        // The worker threads of the view read its files, so that no more threads run than requested, and none
+        // of the global pool that would outlive the session.
         let scene = pool.install(|| self.cache.scene(doc))?;
         let entry = estimator::find(&doc.estimator.id)
             .ok_or_else(|| format!("`{}` is not an estimator", doc.estimator.id))?;
@@ -165,7 +165,7 @@ impl Coordinator<'_> {
         Ok(view)
     }
 
-    /// Publishes a coarse picture at once, and a finer one if the first whole pass is still far off.
+    /// Publishes a coarse image at once, and finer ones while the first whole pass would take long.
     fn show_preview(&self, id: ViewId, view: &Active) {
         let probe = view.probe.aside();
         let work = Work { probe: &probe, ..view.work() };
@@ -214,7 +214,7 @@ mod tests {
         PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
     }
 
-    /// A coordinator with one view of 3 × 2 pixels that is traced by `kernel`.
+    /// A coordinator with one view of 3 × 2 pixels, traced by `kernel`.
     fn with_kernel(mailbox: &Mailbox, kernel: Kernel) -> (Coordinator<'_>, ViewId) {
         let mut doc = SceneDoc::default();
         (doc.film.width, doc.film.height) = (3, 2);
@@ -236,13 +236,13 @@ mod tests {
     }
 
     #[test]
-    fn a_panicking_worker_becomes_a_status_and_the_coordinator_lives_on() {
+    fn a_panicking_worker_becomes_a_status_and_the_coordinator_continues() {
         let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
         let (mut coordinator, id) = with_kernel(&mailbox, breaks);
         coordinator.advance_next();
         let Status::Failed(message) = mailbox.state(id).status else { panic!("it should have failed") };
         assert!(message.contains("no estimate for pixel"), "{message}");
-        // Nothing is left to advance, and the next job starts as ever.
+        // No view is left to advance, and the next job starts normally.
         coordinator.advance_next();
         let job = Job { doc: Arc::new(SceneDoc::default()), preview: false, role: Role::Contender };
         let generation = mailbox.submit(id, job.clone());
@@ -259,7 +259,7 @@ mod tests {
         assert_eq!(first.tally.non_finite, 2);
         let places: Vec<_> = first.tally.located.iter().map(|n| (n.x, n.y, n.sample)).collect();
         assert_eq!(places, [(1, 0, 0), (1, 1, 0)]);
-        // A pixel without any value shows as one, until it gets its first.
+        // A pixel without any finite value is shown as NaN until its first finite sample.
         assert!(first.mean[1][0].is_nan() && first.mean[0] == [0.5; 3]);
         coordinator.advance_next();
         let later = mailbox.state(id).snapshot.unwrap();
@@ -280,8 +280,8 @@ mod tests {
         PathEstimate { rgb: glam::Vec3::splat(value), lookups: 1, exceeded: 0 }
     }
 
-    /// The only limit is the error: whatever the picture is, there is an end, after samples that do not depend on how
-    /// they are split into passes.
+    /// With the error as the only limit, every image ends, after a number of samples that does not depend on
+    /// their division into passes.
     #[test]
     fn an_error_as_the_only_limit_ends_every_picture() {
         let cases: [(Kernel, Ending); 3] =
@@ -301,7 +301,7 @@ mod tests {
                     assert!(view.advance(ROWS_PER_TASK, most));
                     view.snapshot();
                 }
-                coordinator.obey(Command::Limits { view: id, limits: error });
+                coordinator.execute(Command::Limits { view: id, limits: error });
                 let (spp, state) = (coordinator.views[&id].spp, mailbox.state(id));
                 assert_eq!((state.status, state.ending), (Status::Finished, Some(expected)));
                 spp
@@ -311,7 +311,7 @@ mod tests {
         }
     }
 
-    /// Passes, raises and planned points go on where 32 bits end.
+    /// Passes, raises and planned points continue beyond 32 bits.
     #[test]
     fn a_view_goes_on_beyond_32_bits_of_samples() {
         let mailbox = Mailbox::new(Box::new(|| {}), Library::default().progress().clone());
@@ -337,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn a_start_that_nobody_waits_for_is_not_built() {
+    fn a_superseded_start_is_not_built() {
         let (mailbox, id) = (Mailbox::new(Box::new(|| {}), Library::default().progress().clone()), ViewId(0));
         let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::Contender };
         let cache = JobCache::new(Library::default());

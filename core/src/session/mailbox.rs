@@ -1,4 +1,4 @@
-//! What callers and the coordinator share: commands in, states out, one cancel flag per view.
+//! State shared by callers and the coordinator: commands, view states, and one cancellation flag per view.
 
 use super::active::Active;
 use super::{Ending, Job, Status, ViewId, ViewState};
@@ -21,12 +21,12 @@ pub(super) enum Command {
     Remove { view: ViewId },
 }
 
-/// One view as its callers see it.
+/// One view as callers see it.
 struct Public {
     state: ViewState,
     job: Option<Job>,
     submitted: Instant,
-    /// The newest generation; a pass of an older one stops at its next row.
+    /// Newest generation; a pass of an older one stops at its next row.
     current: Arc<AtomicU64>,
 }
 
@@ -71,7 +71,7 @@ pub(super) struct Mailbox {
     inner: Mutex<Inner>,
     arrived: Condvar,
     wake: Box<dyn Fn() + Send + Sync>,
-    /// Of the files that the coordinator reads.
+    /// Loading progress of the files that the coordinator reads.
     progress: Progress,
 }
 
@@ -80,7 +80,7 @@ impl Mailbox {
         Self { inner: Mutex::default(), arrived: Condvar::new(), wake, progress }
     }
 
-    /// Every critical section below leaves `Inner` consistent, so a poisoned lock is still good.
+    /// Locks the state. Every critical section leaves `Inner` consistent, so a poisoned lock remains usable.
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -101,14 +101,15 @@ impl Mailbox {
         public.submitted = Instant::now();
         public.job = Some(job.clone());
         public.current.store(generation, Ordering::Release);
-        // Latest wins: an older start that was not picked up yet is dropped.
+        // The latest job wins: an older start that was not yet taken is dropped.
         inner.commands.retain(|c| !matches!(c, Command::Start { view: v, .. } if *v == view));
         inner.commands.push(Command::Start { view, generation, job });
         self.arrived.notify_one();
         generation
     }
 
-    /// Submits a view's job again. Under one lock: nobody's newer job is lost, no removed view comes back.
+    /// Submits the job of a view again. One lock covers both steps, so that no newer job is lost and no
+    /// removed view reappears.
     pub fn restart(&self, view: ViewId) {
         let mut inner = self.lock();
         let job = inner.views.get(&view).and_then(|p| p.job.clone());
@@ -154,7 +155,7 @@ impl Mailbox {
         state
     }
 
-    /// Takes the waiting commands; sleeps until there is one if `wait`. `None` means shut down.
+    /// Takes the pending commands; if `wait`, blocks until there is one. `None` means shut down.
     pub fn take(&self, wait: bool) -> Option<Vec<Command>> {
         let mut inner = self.lock();
         while wait && inner.commands.is_empty() && !inner.closed {
@@ -163,7 +164,7 @@ impl Mailbox {
         if inner.closed { None } else { Some(std::mem::take(&mut inner.commands)) }
     }
 
-    /// The cell that holds the newest generation of a view.
+    /// Atomic that holds the newest generation of a view.
     pub fn current(&self, view: ViewId) -> Arc<AtomicU64> {
         self.lock()
             .views
@@ -171,7 +172,7 @@ impl Mailbox {
             .map_or_else(|| Arc::new(AtomicU64::new(u64::MAX)), |p| Arc::clone(&p.current))
     }
 
-    /// Changes the public state of a view if `generation` is still its newest, then wakes the caller.
+    /// Changes the public state of a view if `generation` is still its newest, then calls `wake`.
     fn publish(&self, view: ViewId, generation: u64, change: impl FnOnce(&mut Public)) {
         {
             let mut inner = self.lock();
@@ -183,17 +184,17 @@ impl Mailbox {
         (self.wake)();
     }
 
-    /// Publishes that a view could not go on.
+    /// Publishes the failure of a view.
     pub fn publish_failure(&self, view: ViewId, generation: u64, message: String) {
         self.publish(view, generation, |p| p.state.set(Status::Failed(message), None));
     }
 
-    /// Publishes what a view is doing.
+    /// Publishes the status of a view.
     pub fn publish_status(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| p.state.set(active.status(), active.ending()));
     }
 
-    /// Takes note that nothing older than `generation` is being traced any more.
+    /// Records that no generation before `generation` is being traced any more.
     pub fn note_cancelled(&self, view: ViewId, generation: u64) {
         if let Some(public) = self.lock().views.get_mut(&view)
             && public.state.generation == generation
@@ -202,7 +203,7 @@ impl Mailbox {
         }
     }
 
-    /// Publishes what freezing the scene has found.
+    /// Publishes the notices and information of a newly built scene.
     pub fn publish_built(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| {
             p.state.set(active.status(), active.ending());
@@ -213,12 +214,12 @@ impl Mailbox {
         });
     }
 
-    /// Publishes what paths are traced with from now on.
+    /// Publishes the probe that applies from now on.
     pub fn publish_probe(&self, view: ViewId, active: &Active) {
         self.publish(view, active.generation, |p| p.state.probe = Some(active.probe.aside()));
     }
 
-    /// Publishes a picture together with the status that goes with it.
+    /// Publishes an image together with its status.
     pub fn publish_snapshot(
         &self,
         view: ViewId,

@@ -5,9 +5,9 @@
 //!   latest(view)      ◄── Arc<Snapshot>         ◄── end of every pass, then wake()
 //! ```
 //!
-//! The coordinator owns every film; nobody else ever locks one. A submission cancels the pass that
-//! runs (checked row by row) and starts a new generation; stale snapshots are never published.
-//! The caller's thread never waits for rendering, and an idle session uses no CPU.
+//! The coordinator owns every film; no other thread locks one. A submission cancels the running pass (checked
+//! row by row) and starts a new generation; stale snapshots are never published. The caller's thread never
+//! waits for rendering, and an idle session uses no CPU.
 
 mod active;
 mod batch;
@@ -30,86 +30,87 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 pub use stopping::Ending;
 
-/// Names a view of a session.
+/// Identifier of a view within a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ViewId(pub u32);
 
-/// What one view shall show. The scene is frozen from the document by the session; views that
-/// agree in it share one frozen scene, and grids are kept between edits.
+/// A rendering job for one view. The session builds the scene from the document; views with the same scene
+/// share it, and grids are kept between edits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Job {
     /// The document: scene, estimator, limits.
     pub doc: Arc<SceneDoc>,
-    /// Whether a coarse picture comes before the first pass.
+    /// Whether a coarse preview precedes the first pass.
     pub preview: bool,
-    /// Whether it competes with the others, or is rendered beside them.
+    /// Whether the view competes with others or is rendered in the background.
     pub role: Role,
 }
 
-/// How a view takes turns with the others.
+/// Scheduling class of a view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
-    /// Gets as much as every other contender, by the session's [`Fairness`].
+    /// Gets the same share as every other contender, measured by the session's [`Fairness`].
     #[default]
     Contender,
-    /// Gets about one contender's share of the time, and all of it once the contenders are done.
+    /// Gets about the time of one contender, and all of it once the contenders are done.
     Background,
 }
 
-/// What a view is doing.
+/// Status of a view.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
-    /// Nothing was submitted yet.
+    /// No job was submitted.
     Empty,
-    /// Files are read and the scene is frozen.
+    /// Files are being read and the scene is being built.
     Building,
-    /// Passes run.
+    /// Passes are running.
     Rendering,
-    /// Paused by the user; a pass can be stepped.
+    /// Paused by the user; single passes can be stepped.
     Paused,
-    /// A limit was reached.
+    /// The view has ended; see [`Ending`].
     Finished,
-    /// The scene could not be built or a worker panicked; the message names the cause and the cure.
+    /// The scene could not be built or a worker panicked; the message names the cause and the remedy.
     Failed(String),
 }
 
-/// A consistent look at one view.
+/// Consistent snapshot of the state of one view.
 #[derive(Clone, Debug)]
 pub struct ViewState {
-    /// The newest submission.
+    /// Generation of the newest submission.
     pub generation: u64,
-    /// What it is doing.
+    /// Current status.
     pub status: Status,
-    /// Why it is finished, if it is.
+    /// Reason why it has ended, if it has.
     pub ending: Option<Ending>,
-    /// The newest picture; it may belong to an older generation until the new one has a first picture.
+    /// Newest image; belongs to an older generation until the new one has its first image.
     pub snapshot: Option<Arc<Snapshot>>,
-    /// The file that is read while the scene is built.
+    /// File that is being read while the scene is built.
     pub loading: Option<Loading>,
-    /// The submission that `notices`, `scene` and `probe` belong to: an older one until the newest is built.
+    /// Generation that `notices`, `scene` and `probe` belong to; older than the newest until that is built.
     pub built: u64,
-    /// What building repaired or wants to be known, e.g. NaN voxels that were set to 0.
+    /// Notices from building the scene, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
-    /// Numbers about the newest scene that was built.
+    /// Statistics of the scene that was built last.
     pub scene: Option<SceneInfo>,
-    /// Seconds from the newest submission to its first picture.
+    /// Seconds from the newest submission to its first image.
     pub first_picture_seconds: Option<f64>,
-    /// Seconds from the newest submission until no worker traced the one before; none if nothing was rendering.
+    /// Seconds from the newest submission until its predecessor was no longer traced; `None` if no view was
+    /// rendering.
     pub cancelled_seconds: Option<f64>,
-    /// Traces any of its paths again.
+    /// Probe that replays any of the paths.
     pub probe: Option<Probe>,
 }
 
-/// Progressive renders in the background. Dropping it cancels the work, waits until it has stopped, and
-/// ends its threads.
+/// Progressive rendering in the background. Dropping a session cancels its work, waits until it has stopped,
+/// and ends its threads.
 pub struct Session {
     mailbox: Arc<Mailbox>,
     coordinator: Option<JoinHandle<()>>,
 }
 
 impl Session {
-    /// Starts an idle session that finds files through `library` and calls `wake` (from its own
-    /// thread) whenever there is something new to see.
+    /// Starts an idle session that locates files through `library` and calls `wake` (from the coordinator
+    /// thread) whenever a view has changed.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
@@ -132,33 +133,33 @@ impl Session {
         self.mailbox.send(Command::Limits { view, limits });
     }
 
-    /// What contenders get as much of as each other: time, unless it is set.
+    /// Sets the quantity in which contenders are kept equal; time by default.
     pub fn set_fairness(&self, fairness: Fairness) {
         self.mailbox.send(Command::Fairness(fairness));
     }
 
-    /// Starts a view over with the same job.
+    /// Restarts a view with the same job.
     pub fn restart(&self, view: ViewId) {
         self.mailbox.restart(view);
     }
 
-    /// Pauses after the pass that runs, or goes on.
+    /// Pauses after the current pass, or resumes.
     pub fn set_paused(&self, view: ViewId, paused: bool) {
         self.mailbox.send(Command::Pause { view, paused });
     }
 
-    /// While paused: runs one pass of one sample per pixel.
+    /// Runs one pass of one sample per pixel while paused.
     pub fn step(&self, view: ViewId) {
         self.mailbox.send(Command::Step { view });
     }
 
-    /// The newest state of a view.
+    /// Newest state of a view.
     #[must_use]
     pub fn state(&self, view: ViewId) -> ViewState {
         self.mailbox.state(view)
     }
 
-    /// Forgets a view and cancels its work.
+    /// Removes a view and cancels its work.
     pub fn remove(&self, view: ViewId) {
         self.mailbox.send(Command::Remove { view });
     }
@@ -168,7 +169,7 @@ impl Drop for Session {
     fn drop(&mut self) {
         self.mailbox.shut_down();
         if let Some(thread) = self.coordinator.take() {
-            // A panicked coordinator has already reported itself as a failed view.
+            // A panic of the coordinator has already been published as a failed view.
             let _ = thread.join();
         }
     }

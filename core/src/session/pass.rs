@@ -1,4 +1,4 @@
-//! One pass: every pixel of a film gets some more samples.
+//! A pass, which adds samples to every pixel of a film.
 
 use super::Probe;
 use crate::estimator::PathEstimate;
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-/// What a pass has cost.
+/// Cost of a pass.
 #[derive(Default)]
 pub(super) struct Cost {
     pub tally: Tally,
@@ -24,14 +24,14 @@ impl Cost {
     }
 }
 
-/// Everything that the paths of one submission are traced with, for as long as it is wanted.
+/// Probe and cancellation token of one submission.
 #[derive(Clone, Copy)]
 pub(super) struct Work<'a> {
     pub probe: &'a Probe,
     pub cancel: CancelToken<'a>,
 }
 
-/// Samples of a row that are traced before any of them is added to the film.
+/// Samples of a row that are traced before they are added to the film.
 const BUFFERED_SAMPLES: u64 = 16;
 
 impl Work<'_> {
@@ -40,9 +40,11 @@ impl Work<'_> {
         self.probe.path(x as u32, y as u32, sample, self.cancel)
     }
 
-    /// Adds samples to every pixel of a film; `None` if it was cancelled, which leaves the film
-    /// unusable. A task is a band of so many rows, owned by one thread at a time; the film does not
-    /// depend on how many. Only tracing is billed: the film's statistics are nobody's cost.
+    /// Adds samples to every pixel of a film. Returns `None` if it was cancelled, which leaves the film
+    /// unusable.
+    ///
+    /// A task is a band of `rows_per_task` rows and is processed by one thread; the film does not depend on
+    /// the size of the band. Only path tracing is charged; film statistics are not.
     pub fn add_samples(
         &self,
         film: &mut Film,
@@ -63,7 +65,7 @@ impl Work<'_> {
                 Some(cost)
             })
             .collect();
-        // Merged from the top, so that the located samples do not depend on threads either.
+        // Merged from the top, so that the located samples do not depend on the number of threads.
         costs.map(|costs| costs.into_iter().fold(Cost::default(), Cost::merge))
     }
 
@@ -77,7 +79,7 @@ impl Work<'_> {
     ) -> Option<()> {
         let mut first = samples.start;
         if first == 0 {
-            // The memory may have been another film's.
+            // The memory may hold the pixels of another film.
             row.fill(Pixel::default());
         }
         while first < samples.end {
@@ -86,7 +88,7 @@ impl Work<'_> {
             traced.clear();
             for x in 0..row.len() {
                 traced.extend(some.clone().map(|sample| self.path(x, y, sample)));
-                // Asked after each pixel: the estimate of an unwanted path must not be kept.
+                // Checked after each pixel: the estimate of a cancelled path must not be kept.
                 if !self.cancel.is_active() {
                     return None;
                 }
@@ -124,13 +126,13 @@ mod tests {
 
     const SAMPLES: u64 = 6;
 
-    /// Every third path of a row has no value.
+    /// Every third path of a row has no finite value.
     fn now_and_then_nan(_: &Scene, _: &Settings, at: PathIndex, _: PathContext<'_>) -> PathEstimate {
         let value = if (at.x + at.y).is_multiple_of(3) { f32::NAN } else { at.sample as f32 };
         PathEstimate { rgb: Vec3::splat(value), lookups: u64::from(at.x), exceeded: 0 }
     }
 
-    /// A film of 11 rows after passes that end at these samples, with what it has cost.
+    /// A film of 11 rows after passes that end at these samples, with its tally.
     fn film(kernel: Kernel, ends: &[u64], rows_per_task: usize) -> (Vec<Pixel>, Tally) {
         let mut doc = SceneDoc::default();
         (doc.film.width, doc.film.height) = (7, 11);

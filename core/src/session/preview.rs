@@ -1,12 +1,12 @@
-//! A coarse picture for the eye: one path per block of pixels, thrown away afterwards.
+//! Coarse preview with one path per block of pixels, discarded afterwards.
 
 use super::pass::Work;
 use rayon::prelude::*;
 
-/// Beyond the samples of any film: a preview shares no random numbers with the estimate.
+/// Sample number beyond those of any film: a preview shares no random numbers with the estimate.
 const PREVIEW_SAMPLE: u64 = u64::MAX;
 
-/// Renders one path at the middle of every `stride × stride` block and spreads it over the block;
+/// Renders one path at the middle of every `stride × stride` block and fills the block with it. Returns
 /// `None` if it was cancelled.
 pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
     let (width, height) = (work.probe.scene.width as usize, work.probe.scene.height as usize);
@@ -23,7 +23,7 @@ pub(super) fn render(work: &Work, stride: usize) -> Option<Vec<[f32; 3]>> {
             if !work.cancel.is_active() {
                 return None;
             }
-            // What is not finite shows as such.
+            // Non-finite values are shown as they are.
             let value = rgb.to_array();
             for row in rows.chunks_mut(width) {
                 row[left..(left + stride).min(width)].fill(value);

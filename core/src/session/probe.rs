@@ -1,4 +1,4 @@
-//! Any path of a view, traced again: random numbers are a function of (seed, pixel, sample).
+//! Replay of individual paths of a view; random numbers are a function of (seed, pixel, sample).
 
 use crate::estimator::{Entry, Kernel, PathEstimate, PathIndex, Settings};
 use crate::inspect::{Evidence, Recording, Split, Strategies, StrategyPlan, scene_of};
@@ -9,15 +9,15 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Everything that the paths of one submission are traced with; cheap to clone.
+/// Scene, kernel and settings with which the paths of one submission are traced; cheap to clone.
 #[derive(Clone)]
 pub struct Probe {
     pub(super) scene: Arc<Scene>,
-    /// Scenes of earlier samples, whose majorants were lower, with the sample that each ends before.
+    /// Scenes of earlier samples with lower majorants, each with the sample number before which it applies.
     pub(super) before: Vec<(u64, Arc<Scene>)>,
     pub(super) kernel: Kernel,
     pub(super) settings: Settings,
-    /// What the film's paths have found of the scene's majorants; paths that are traced aside have findings of their own.
+    /// Majorant violations found by the paths of the film; paths traced separately record their own.
     found: Arc<Violations>,
 }
 
@@ -27,12 +27,12 @@ impl fmt::Debug for Probe {
     }
 }
 
-/// At most about so many pixels are taken apart as evidence, with about so many samples of all of them together: that
-/// tells shares to a per cent or two.
+/// Approximate maximum number of pixels that are analysed as evidence, and of samples over all of them. This
+/// determines fractions to one or two per cent.
 const EVIDENCE_PIXELS: u64 = 20_000;
 const EVIDENCE_SAMPLES: u64 = 160_000;
 
-/// One sample of a pixel.
+/// Estimate of one sample of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelSample {
     /// Linear sRGB.
@@ -42,15 +42,15 @@ pub struct PixelSample {
 }
 
 impl Probe {
-    /// Paths of a scene by an estimator's kernel.
+    /// Creates a probe of a scene with the kernel of an estimator.
     #[must_use]
     pub fn new(scene: Arc<Scene>, kernel: Kernel, settings: Settings) -> Self {
         let found = Arc::clone(&scene.violations);
         Self { scene, before: Vec::new(), kernel, settings, found }
     }
 
-    /// The same probe with findings of its own about exceeded majorants, so that replayed paths do not raise the majorants
-    /// of the film.
+    /// Returns the same probe with a separate record of exceeded majorants, so that replayed paths do not
+    /// raise the majorants of the film.
     #[must_use]
     pub fn aside(&self) -> Self {
         let scene = &self.scene;
@@ -58,26 +58,27 @@ impl Probe {
         Self { scene, ..self.clone() }
     }
 
-    /// Paths of a film that has had no samples yet: nothing was found of the majorants.
+    /// Probe for a film without samples: no violation has been found.
     pub(super) fn afresh(&self) -> Self {
         let aside = self.aside();
         Self { found: Arc::clone(&aside.scene.violations), ..aside }
     }
 
-    /// Where the film's paths have found the newest majorants to be exceeded.
+    /// Violations of the newest majorants by the paths of the film.
     #[must_use]
     pub fn violations(&self) -> &Violations {
         &self.found
     }
 
-    /// How often the majorants were raised: samples that the film does not have yet are traced otherwise after the next time.
+    /// Number of times that the majorants were raised. Samples added after the next raise use higher
+    /// majorants.
     #[must_use]
     pub fn raises(&self) -> usize {
         self.before.len()
     }
 
-    /// Samples from the `spp`-th on until the majorants may be raised: after 1, 2, 4, 8, … of every pixel, so that what is
-    /// traced with which majorants does not depend on time.
+    /// Samples from the `spp`-th on until the majorants may be raised. Raises occur after 1, 2, 4, 8, …
+    /// samples per pixel, so that the majorants of a sample do not depend on time.
     pub(super) fn until_raise(&self, spp: u64) -> u64 {
         if !self.scene.medium.is_progressive() {
             return u64::MAX;
@@ -85,8 +86,8 @@ impl Probe {
         spp.saturating_add(1).checked_next_power_of_two().map_or(u64::MAX, |next| next - spp)
     }
 
-    /// Raises the majorants, where they were found to be exceeded, for all samples from `sample` on; false if it is not
-    /// time, or there is nothing to raise.
+    /// Raises exceeded majorants for all samples from `sample` on. Returns false if no raise is due, or no
+    /// majorant was exceeded.
     pub(super) fn raise_majorants(&mut self, sample: u64) -> bool {
         let Some(raised) = sample.is_power_of_two().then(|| self.scene.raised()).flatten() else {
             return false;
@@ -96,24 +97,25 @@ impl Probe {
         true
     }
 
-    /// The scene that paths are traced in.
+    /// Scene in which new paths are traced.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 
-    /// The path of sample number `sample` of a pixel, exactly as the film has received it.
+    /// Traces the path of sample number `sample` of a pixel, exactly as the film has received it.
     pub fn path(&self, x: u32, y: u32, sample: u64, cancel: CancelToken<'_>) -> PathEstimate {
         (self.kernel)(self.scene_of(sample), &self.settings, PathIndex { x, y, sample }, cancel.into())
     }
 
-    /// The same path with every step that it takes.
+    /// Traces the same path and records every step.
     #[must_use]
     pub fn record(&self, at: PathIndex, cancel: CancelToken<'_>) -> Recording {
         Recording::new(self.scene_of(at.sample), self.kernel, &self.settings, at, cancel)
     }
 
-    /// The image of the first samples of every pixel, taken apart; `None` if it was called off.
+    /// Renders the first samples of every pixel, split into contributions. Returns `None` if it was
+    /// cancelled.
     #[must_use]
     pub fn strategies(
         &self,
@@ -124,8 +126,8 @@ impl Probe {
         Strategies::render(&self.plan(samples), split, cancel)
     }
 
-    /// Why a box of pixels is noisy, or the whole image, by samples that are taken apart; `None` if there is no noise, or
-    /// it was called off.
+    /// Analyses the noise of the image or of a box of pixels by the contributions to its samples. Returns
+    /// `None` if there is no noise, or it was cancelled.
     #[must_use]
     pub fn evidence(
         &self,
@@ -154,19 +156,18 @@ impl Probe {
         }
     }
 
-    /// The same scene and random numbers under another estimator.
+    /// Returns a probe of the same scene and random numbers with another estimator.
     #[must_use]
     pub fn under(&self, entry: &Entry) -> Self {
         Self { kernel: entry.kernel, ..self.clone() }
     }
 
-    /// The scene that a sample was traced in.
+    /// Scene in which a sample was traced.
     fn scene_of(&self, sample: u64) -> &Scene {
         scene_of(&self.scene, &self.before, sample)
     }
 
-    /// Samples of a pixel, by their numbers; none if the pixel is outside of the film or the work is not
-    /// wanted any more.
+    /// Samples of a pixel, by number. Empty if the pixel is outside the film or the work was cancelled.
     #[must_use]
     pub fn samples(
         &self,

@@ -1,37 +1,39 @@
-//! Who is next: contenders keep level, by what the comparison is fair in.
+//! Scheduler that keeps the contenders equal in the quantity selected by [`Fairness`].
 //!
-//! The contender that has had least gets the next pass, and no more of it than brings it level with the
-//! one ahead. A newcomer, or one that was edited, therefore catches up before the others go on: pictures side
-//! by side have cost the same. Only path tracing counts; films, pictures and statistics are on the house.
+//! The contender with the least of this quantity gets the next pass, limited to the samples that bring it
+//! level with the contender that has the most. A new or edited view therefore catches up before the others
+//! continue, so that images side by side have the same cost. Only path tracing is charged; film merging,
+//! images and statistics are not.
 
 use super::Role;
 use super::active::Active;
 use crate::scene::Fairness;
 use std::collections::BTreeMap;
 
-/// What a contender has had so far, in the unit that the comparison is fair in.
+/// Amount that a contender has received so far, in the unit of the fairness.
 fn had(view: &Active, fairness: Fairness) -> f64 {
     match fairness {
         Fairness::Time => view.cpu_seconds,
         Fairness::Samples => view.spp as f64,
-        // A path counts as one at least: what never meets the medium must not have all the turns.
+        // A path counts as one look-up at least: a view that never hits the medium must not get every pass.
         Fairness::Lookups => view.tally.lookups.max(view.tally.paths) as f64,
     }
 }
 
-/// Keeps the time of what is rendered in the background level with that of the contenders.
+/// Scheduler state: fairness, and the balance between background and contenders.
 #[derive(Debug, Default)]
 pub(super) struct Scheduler {
     pub fairness: Fairness,
-    /// CPU seconds that a contender has had on average, less those of the background.
-    owed: f64,
+    /// Mean CPU seconds per contender, minus those of the background.
+    background_lag: f64,
 }
 
-/// Background work is not owed more than this, however long there was none of it.
-const LONGEST_DEBT_SECONDS: f64 = 1.0;
+/// Bound on the accumulated difference, however long there was no background work.
+const MAX_LAG_SECONDS: f64 = 1.0;
 
 impl Scheduler {
-    /// The next view to get a pass, with the most samples per pixel that it may take.
+    /// Returns the view that gets the next pass, and the maximum number of samples per pixel that it may
+    /// take.
     pub fn next<K: Copy + Ord>(&self, views: &BTreeMap<K, Active>) -> Option<(K, u64)> {
         let runnable = || views.iter().filter(|(_, v)| v.runnable());
         let background = runnable().find(|(_, v)| v.role == Role::Background);
@@ -41,7 +43,7 @@ impl Scheduler {
         match (contender, background) {
             (None, None) => None,
             (None, Some((id, _))) => Some((*id, u64::MAX)),
-            (Some(_), Some((id, _))) if self.owed > 0.0 => Some((*id, u64::MAX)),
+            (Some(_), Some((id, _))) if self.background_lag > 0.0 => Some((*id, u64::MAX)),
             (Some((id, view)), _) => {
                 let ahead = runnable()
                     .filter(|(_, v)| v.role == Role::Contender)
@@ -52,7 +54,7 @@ impl Scheduler {
         }
     }
 
-    /// Samples per pixel that bring a view level with what the one ahead has had; no bound if none is ahead.
+    /// Samples per pixel that bring a view level with `ahead`; unbounded if it already is.
     fn samples_to(&self, view: &Active, ahead: f64) -> u64 {
         let mine = had(view, self.fairness);
         if ahead <= mine {
@@ -65,13 +67,13 @@ impl Scheduler {
         ((ahead - mine) / per_sample).round().max(1.0) as u64
     }
 
-    /// Takes note of what a pass has cost; `contenders` are those that can run.
+    /// Records the cost of a pass; `contenders` is the number that can run.
     pub fn note(&mut self, role: Role, cpu_seconds: f64, contenders: usize) {
         match role {
-            Role::Contender => self.owed += cpu_seconds / contenders.max(1) as f64,
-            Role::Background => self.owed -= cpu_seconds,
+            Role::Contender => self.background_lag += cpu_seconds / contenders.max(1) as f64,
+            Role::Background => self.background_lag -= cpu_seconds,
         }
-        self.owed = self.owed.clamp(-LONGEST_DEBT_SECONDS, LONGEST_DEBT_SECONDS);
+        self.background_lag = self.background_lag.clamp(-MAX_LAG_SECONDS, MAX_LAG_SECONDS);
     }
 }
 
@@ -97,10 +99,10 @@ mod tests {
         view
     }
 
-    /// Seconds and look-ups that a sample of each view costs.
+    /// Seconds and look-ups per sample of each view.
     const COSTS: [(f64, u64); 3] = [(0.001, 10), (0.004, 5), (0.01, 300)];
 
-    /// Runs passes of at most `fitting` samples, as if they had cost what they should.
+    /// Runs passes of at most `fitting` samples with simulated costs.
     fn run(views: &mut BTreeMap<usize, Active>, scheduler: &mut Scheduler, passes: usize, fitting: u64) {
         for _ in 0..passes {
             let (id, most) = scheduler.next(views).unwrap();
@@ -127,14 +129,14 @@ mod tests {
             let mut scheduler = Scheduler { fairness, ..Scheduler::default() };
             run(&mut views, &mut scheduler, 600, 8);
             assert!(spread(&views, fairness) < 0.05, "{fairness:?}: {}", spread(&views, fairness));
-            // In the other two they are not level: the costs differ.
+            // The views differ in the other two quantities, since their costs differ.
             let other = if fairness == Fairness::Time { Fairness::Samples } else { Fairness::Time };
             assert!(spread(&views, other) > 0.3, "{fairness:?}");
         }
     }
 
     #[test]
-    fn a_newcomer_catches_up_before_the_others_go_on() {
+    fn a_new_view_catches_up_before_the_others_continue() {
         let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
         let mut scheduler = Scheduler { fairness: Fairness::Samples, ..Scheduler::default() };
         run(&mut views, &mut scheduler, 100, 8);
@@ -143,7 +145,11 @@ mod tests {
         while views[&2].spp < before {
             run(&mut views, &mut scheduler, 1, 8);
         }
-        assert_eq!(views.values().map(|v| v.spp).max(), Some(before), "exactly level, and nobody went ahead");
+        assert_eq!(
+            views.values().map(|v| v.spp).max(),
+            Some(before),
+            "exactly level, and no view went beyond"
+        );
     }
 
     #[test]

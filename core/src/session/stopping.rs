@@ -1,27 +1,27 @@
-//! When a view has ended: at a limit, or because its error can never be known.
+//! Stopping criteria of a view: limits, and images whose relative error is undefined.
 
 use crate::film::Snapshot;
 use crate::scene::Limits;
 
-/// Why a view has ended.
+/// Reason why a view has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// It has its samples per pixel.
+    /// The limit on samples per pixel was reached.
     Samples,
-    /// It has had its seconds.
+    /// The limit on wall-clock seconds was reached.
     Seconds,
-    /// It has had its CPU seconds.
+    /// The limit on CPU seconds was reached.
     CpuSeconds,
-    /// Its standard error is the share of its mean that was asked for.
+    /// The relative standard error has reached its limit.
     RelativeError,
-    /// All of it is black, so that no error is a share of its mean, and it has no other limit.
+    /// The image is black, so that its relative error is undefined, and there is no other limit.
     Black,
-    /// No pixel has a finite value, so that there is neither mean nor error, and it has no other limit.
+    /// No pixel has a finite value, so that there is neither mean nor error, and there is no other limit.
     NotFinite,
 }
 
 impl Ending {
-    /// Stable id, for JSON: the limit's key, or what the picture is.
+    /// Stable id for JSON: the key of the limit, or the fault of the image.
     #[must_use]
     pub fn id(self) -> &'static str {
         match self {
@@ -34,7 +34,7 @@ impl Ending {
         }
     }
 
-    /// What is wrong with the picture, and the cure; `None` where a limit was reached.
+    /// Fault of the image and its remedy; `None` where a limit was reached.
     #[must_use]
     pub fn warning(self) -> Option<&'static str> {
         match self {
@@ -49,44 +49,46 @@ impl Ending {
     }
 }
 
-/// Fewer samples per pixel say too little about their own error to end anything.
+/// Minimum samples per pixel from which the estimated error can end a view.
 const LEAST_SAMPLES: u64 = 16;
-/// The first planned point: with 16 samples, halves are compared.
+/// First planned point; at 16 samples the two halves are compared.
 const FIRST_POINT: u64 = 8;
-/// A picture that is black, or has no value, after so many samples per pixel will not be known better.
-const HOPELESS_SAMPLES: u64 = 256;
-/// The halves of the samples agree if their means lie within so many of their joint standard errors.
+/// Samples per pixel after which an image that is black, or has no finite value, is given up.
+const DEGENERATE_SAMPLES: u64 = 256;
+/// Largest difference between the means of the two halves of the samples, in joint standard errors.
 const AGREEMENT: f64 = 2.0;
 
-/// The first planned point after `spp` samples per pixel: 8 √2ᵏ, rounded.
+/// First planned point after `spp` samples per pixel: 8 √2ᵏ, rounded.
 fn next_point(spp: u64) -> u64 {
     let points = (0..).map(|k: i32| (FIRST_POINT as f64 * 2f64.powf(0.5 * f64::from(k))).round() as u64);
-    // Rounding saturates at the largest number, which nothing comes after.
+    // Rounding saturates at the largest number, which has no successor.
     points.take(140).find(|point| *point > spp).unwrap_or(u64::MAX)
 }
 
-/// Whether a picture's own standard error may end it.
+/// Stopping rule based on the estimated standard error of an image.
 ///
-/// A picture is stopped too soon, and too dark, where rare paths have not come yet: neither they nor their variance have been
-/// seen. It is therefore asked at planned points only, a factor of √2 in samples apart and not before the 16th sample; it
-/// has to be good enough at two of them in succession; and the first and second half of its samples have to agree in
-/// the mean of the picture. That makes stopping by chance rarer, and cannot make it impossible: of log-normal noise (σ = 1.3)
-/// in one pixel, an error of 20 % leaves a mean of 0.95 where the first good error left 0.87; more pixels, less.
+/// A naive rule stops too soon, with too dark an image, before rare paths have been sampled: neither their
+/// contribution nor their variance is included yet. The error is therefore evaluated at planned points only,
+/// a factor of √2 in samples apart and not before the 16th sample; it has to be small enough at two of them
+/// in succession; and the means of the image over the first and the second half of the samples have to agree.
+/// This makes premature stopping rarer, but cannot exclude it: for log-normal noise (σ = 1.3) in one pixel, a
+/// limit of 20 % leaves a mean of 0.95, where stopping at the first small error leaves 0.87; the loss is
+/// smaller with more pixels.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ErrorTarget {
-    /// What was known at the last planned points, the newest last.
+    /// Statistics at the last planned points, the newest last.
     points: Vec<Point>,
 }
 
-/// A picture as a whole.
+/// Statistics of a whole image at one point.
 #[derive(Clone, Copy, Debug)]
 struct Point {
     spp: u64,
     relative_error: f64,
     mean: [f64; 3],
-    /// Of the mean.
+    /// Variance of `mean`.
     variance: [f64; 3],
-    hopeless: Option<Ending>,
+    degenerate: Option<Ending>,
 }
 
 impl ErrorTarget {
@@ -95,29 +97,29 @@ impl ErrorTarget {
         next_point(spp) - spp
     }
 
-    /// Takes note of a picture, if this is a planned point.
+    /// Records an image if this is a planned point.
     pub fn note(&mut self, snapshot: &Snapshot) {
         let spp = snapshot.spp;
         if spp == 0 || next_point(spp - 1) != spp || self.points.last().is_some_and(|p| p.spp >= spp) {
             return;
         }
-        // Of halves the older half ends two points ago.
+        // The first half of the samples ends two points earlier.
         if self.points.len() == 3 {
             self.points.remove(0);
         }
         self.points.push(Point::of(snapshot));
     }
 
-    /// Whether the standard error is this share of the mean.
+    /// Whether the relative standard error is at most `share`.
     pub fn reached(&self, share: f64) -> bool {
         let [older, before, newest] = self.points.as_slice() else { return false };
         let good = |p: &Point| p.spp >= LEAST_SAMPLES && p.relative_error <= share;
         good(before) && good(newest) && newest.agrees_with(older)
     }
 
-    /// Why the error will never be known, if so.
-    pub fn hopeless(&self) -> Option<Ending> {
-        self.points.last().filter(|p| p.spp >= HOPELESS_SAMPLES).and_then(|p| p.hopeless)
+    /// Reason why the relative error will stay undefined, if it will.
+    pub fn degenerate(&self) -> Option<Ending> {
+        self.points.last().filter(|p| p.spp >= DEGENERATE_SAMPLES).and_then(|p| p.degenerate)
     }
 }
 
@@ -136,7 +138,7 @@ impl Point {
             }
         }
         let n = known.max(1) as f64;
-        let hopeless = match (known, black) {
+        let degenerate = match (known, black) {
             (0, _) => Some(Ending::NotFinite),
             (_, true) => Some(Ending::Black),
             _ => None,
@@ -146,26 +148,27 @@ impl Point {
             relative_error: snapshot.relative_error(),
             mean: mean.map(|m| m / n),
             variance: variance.map(|v| v / (n * n)),
-            hopeless,
+            degenerate,
         }
     }
 
-    /// Whether what has come since an earlier point has the same mean, within the joint standard error of both.
+    /// Whether the samples since an earlier point have the same mean, within the joint standard error of
+    /// both.
     fn agrees_with(&self, earlier: &Self) -> bool {
         let (n, a) = (self.spp as f64, earlier.spp as f64);
         let b = n - a;
         (0..3).all(|c| {
             let since = (n * self.mean[c] - a * earlier.mean[c]) / b;
-            // n times the variance of the mean is that of one sample.
+            // n times the variance of the mean is the variance of one sample.
             let joint = (n * self.variance[c] * (1.0 / a + 1.0 / b)).sqrt();
-            // Pictures hold single precision.
+            // Images have single precision.
             let rounding = 1e-6 * self.mean[c].abs();
             (since - earlier.mean[c]).abs() <= AGREEMENT * joint + rounding
         })
     }
 }
 
-/// What limits say of a view that has had so much; `None` while it goes on.
+/// Reason for ending a view with these samples and times; `None` while it continues.
 pub(super) fn ending(
     limits: &Limits,
     (spp, seconds, cpu_seconds): (u64, f64, f64),
@@ -179,7 +182,7 @@ pub(super) fn ending(
     ];
     let alone = *limits == Limits { relative_error: limits.relative_error, ..Limits::default() };
     let first = reached.into_iter().find(|(reached, _)| *reached).map(|(_, ending)| ending);
-    first.or_else(|| target.hopeless().filter(|_| alone && limits.relative_error.is_some()))
+    first.or_else(|| target.degenerate().filter(|_| alone && limits.relative_error.is_some()))
 }
 
 #[cfg(test)]
@@ -198,7 +201,7 @@ mod tests {
         .take(9)
         .collect();
         assert_eq!(points, [8, 11, 16, 23, 32, 45, 64, 91, 128]);
-        // However many samples a pixel has, there is a next point or none.
+        // For any number of samples there is a later point, or none.
         for spp in [u64::from(u32::MAX), 1 << 40, u64::MAX / 2, u64::MAX - 1] {
             assert!(next_point(spp) > spp);
             assert!(ErrorTarget::until_point(spp) > 0);
@@ -225,7 +228,8 @@ mod tests {
         }
     }
 
-    /// After how many samples, and why, a film of `pixels` of these samples ends; `None` if not within `most`.
+    /// Number of samples after which a film of `pixels` pixels ends, and the reason; `None` if not within
+    /// `most`.
     fn end(share: f32, pixels: usize, most: u64, sample: impl Fn(u64, u64) -> f32) -> Option<(u64, Ending)> {
         let limits = Limits { relative_error: Some(share), ..Limits::default() };
         let (mut film, mut target) = (Film::new(pixels, 1), ErrorTarget::default());
@@ -250,10 +254,10 @@ mod tests {
     }
 
     #[test]
-    fn a_black_picture_and_one_without_values_end_and_say_so() {
+    fn a_black_picture_and_one_without_values_end_with_their_reason() {
         assert_eq!(end(0.01, 4, 300, |_, _| 0.0), Some((256, Ending::Black)));
         assert_eq!(end(0.01, 4, 300, |_, _| f32::NAN), Some((256, Ending::NotFinite)));
-        // One pixel that has got light once is not black.
+        // A pixel with one non-zero sample is not black.
         let once = |pixel, sample| if (pixel, sample) == (2, 100) { 1.0 } else { 0.0 };
         assert_eq!(end(0.01, 4, 300, once), None);
     }
@@ -271,16 +275,17 @@ mod tests {
         assert_eq!(ending(&Limits::default(), (256, 1.0, 1.0), &target), None);
     }
 
-    /// Samples of both signs whose mean is negative at first: error over mean was below any share.
+    /// Samples of both signs whose mean is negative at first. A signed ratio of error to mean would be below
+    /// any limit.
     #[test]
     fn a_negative_mean_is_no_small_error() {
         let signed = |pixel, sample| {
             let noise = Sampler::new(3, pixel, sample).next_1d() - 0.5;
-            // The first samples are negative, all later ones make up for it.
+            // The first samples are negative; all later ones compensate for them.
             0.05 + 4.0 * noise - if sample < 8 { 3.0 } else { 0.0 }
         };
         assert_eq!(end(0.02, 16, 3000, signed), None);
-        // A picture that is negative throughout, as differences are, ends as its opposite does.
+        // A negative image, such as a difference, ends as its opposite does.
         let of = |sign: f32| {
             end(0.02, 16, 4000, move |pixel, sample| sign * (1.0 + Sampler::new(4, pixel, sample).next_1d()))
         };
@@ -288,9 +293,9 @@ mod tests {
         assert!(of(-1.0).is_some_and(|(_, ending)| ending == Ending::RelativeError));
     }
 
-    /// Constant until rare paths come: the error of the first samples is 0.
+    /// Constant until rare paths are sampled: the error of the first samples is 0.
     #[test]
-    fn what_comes_late_is_waited_for_where_halves_show_it() {
+    fn late_contributions_are_detected_by_comparing_halves() {
         let late = |pixel, sample| {
             if sample < 20 { 1.0 } else { 2.0 * Sampler::new(5, pixel, sample).next_optical_depth() }
         };
@@ -298,8 +303,8 @@ mod tests {
         assert!(spp > 100 && ending == Ending::RelativeError, "{spp}");
     }
 
-    /// Skewed noise, as light has: a log-normal of mean 1. At the first sample with an error of 30 % the mean is a fifth too
-    /// dark, by the planned rule less than a tenth.
+    /// Skewed noise as in light transport: a log-normal of mean 1. At the first sample with an error of 30 %
+    /// the mean is a fifth too dark; with the planned rule, less than a tenth.
     #[test]
     fn the_planned_rule_is_less_dark_than_the_first_good_error() {
         const SHARE: f32 = 0.3;

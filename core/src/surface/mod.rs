@@ -1,4 +1,4 @@
-//! Surfaces: shapes in world space that rays meet.
+//! Surfaces: shapes in world space that can be intersected by rays.
 
 mod oriented_box;
 mod plane;
@@ -14,19 +14,19 @@ use crate::math::Ray;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
 
-/// Where a ray meets a surface.
+/// Intersection of a ray with a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceHit {
     /// Distance along the ray.
     pub t: f32,
-    /// Unit normal, outward; a rectangle's points to its emitting side.
+    /// Unit normal, outward; that of a rectangle points to its emitting side.
     pub normal: Vec3,
 }
 
-/// Any shape.
+/// Shape of a surface.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// A parallelogram with right angles.
+    /// A rectangle.
     Rectangle(Rectangle),
     /// A sphere.
     Sphere(Sphere),
@@ -37,7 +37,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The nearest meeting at `0 < t < t_max`.
+    /// Nearest intersection at `0 < t < t_max`.
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         match self {
@@ -49,20 +49,20 @@ impl Shape {
     }
 }
 
-/// What a surface does with light.
+/// Optical behaviour of a surface.
 #[derive(Clone, Debug)]
 pub enum Role {
-    /// It is the light with this index; it reflects nothing.
+    /// Emits as the light with this index, and reflects nothing.
     Light(usize),
-    /// It reflects this fraction, the same in all directions (Lambert).
+    /// Reflects diffusely (Lambert), with this albedo.
     Diffuse(Spectrum),
 }
 
-/// A shape with its role.
+/// A shape with its optical behaviour.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Its shape.
+    /// Shape.
     pub shape: Shape,
-    /// What it does with light.
+    /// Optical behaviour.
     pub role: Role,
 }

@@ -4,19 +4,19 @@ use super::SurfaceHit;
 use crate::math::Ray;
 use glam::{Quat, Vec3};
 
-/// A box by centre, half edge lengths and rotation.
+/// A box given by centre, half edge lengths and rotation.
 #[derive(Clone, Copy, Debug)]
 pub struct OrientedBox {
-    /// Its centre.
+    /// Centre.
     pub center: Vec3,
-    /// Half of its edge lengths.
+    /// Half of the edge lengths.
     pub half_size: Vec3,
-    /// Turns the box's axes into the world's.
+    /// Rotation from the box's axes to world space.
     pub world_from_box: Quat,
 }
 
 impl OrientedBox {
-    /// The nearest meeting at `0 < t < t_max`: entry from outside, exit from inside.
+    /// Nearest intersection at `0 < t < t_max`: entry from outside, exit from inside.
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let box_from_world = self.world_from_box.inverse();
@@ -58,7 +58,7 @@ mod tests {
             world_from_box: Quat::from_rotation_y(std::f32::consts::FRAC_PI_2),
         };
         let ray = Ray { origin: Vec3::new(0.1, 0.2, 0.0), direction: Vec3::Z };
-        let hit = cube.intersect(&ray, f32::INFINITY).expect("the ray meets the box");
+        let hit = cube.intersect(&ray, f32::INFINITY).expect("the ray hits the box");
         assert!((hit.t - 4.0).abs() < 1e-5 && (hit.normal - Vec3::NEG_Z).length() < 1e-5);
         assert!(cube.intersect(&ray, 3.9).is_none());
         let inside = Ray { origin: Vec3::new(0.1, 0.2, 5.0), direction: Vec3::Z };

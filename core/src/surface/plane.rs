@@ -4,17 +4,17 @@ use super::SurfaceHit;
 use crate::math::Ray;
 use glam::Vec3;
 
-/// A plane by a point and its unit normal.
+/// A plane given by a point and its unit normal.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
-    /// A point on it.
+    /// A point on the plane.
     pub point: Vec3,
     /// Unit normal.
     pub normal: Vec3,
 }
 
 impl Plane {
-    /// The meeting at `0 < t < t_max`.
+    /// Intersection at `0 < t < t_max`.
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let t = (self.point - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);

@@ -4,23 +4,24 @@ use super::SurfaceHit;
 use crate::math::Ray;
 use glam::Vec3;
 
-/// A rectangle by its centre and two perpendicular half-edges; its normal is their cross product.
+/// A rectangle given by its centre and two perpendicular half-edges; its normal is their cross product.
 #[derive(Clone, Copy, Debug)]
 pub struct Rectangle {
-    /// Its centre.
+    /// Centre.
     pub center: Vec3,
-    /// Half of its width.
+    /// Half-edge along the width.
     pub half_u: Vec3,
-    /// Half of its height.
+    /// Half-edge along the height.
     pub half_v: Vec3,
     /// Unit normal.
     pub normal: Vec3,
-    /// Area.
+    /// Area in square scene units.
     pub area: f32,
 }
 
 impl Rectangle {
-    /// A rectangle at `center` that faces `target`, its height leaning to `up`.
+    /// Creates a rectangle at `center` that faces `target`, with its height axis as close to `up` as
+    /// possible.
     #[must_use]
     pub fn facing(center: Vec3, target: Vec3, up: Vec3, size: [f32; 2]) -> Self {
         let normal = (target - center).normalize();
@@ -40,11 +41,11 @@ impl Rectangle {
         }
     }
 
-    /// The nearest meeting at `0 < t < t_max`, from either side.
+    /// Intersection at `0 < t < t_max`, from either side.
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let t = (self.center - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
-        // The negated form also refuses NaN, from rays within the plane.
+        // The negated form also rejects NaN, from rays within the plane.
         if !(t > 0.0 && t < t_max) {
             return None;
         }

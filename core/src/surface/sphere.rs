@@ -4,21 +4,21 @@ use super::SurfaceHit;
 use crate::math::Ray;
 use glam::Vec3;
 
-/// A sphere by centre and radius.
+/// A sphere given by centre and radius.
 #[derive(Clone, Copy, Debug)]
 pub struct Sphere {
-    /// Its centre.
+    /// Centre.
     pub center: Vec3,
-    /// Its radius.
+    /// Radius.
     pub radius: f32,
 }
 
 impl Sphere {
-    /// The nearest meeting at `0 < t < t_max`.
+    /// Nearest intersection at `0 < t < t_max`.
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
-        // With unit direction: distance to the centre's foot, then Pythagoras from the foot, which
-        // keeps its digits for small and distant spheres (Haines et al. 2019).
+        // With unit direction: the distance to the foot of the centre, then Pythagoras from the foot, which
+        // is precise for small and distant spheres (Haines et al. 2019).
         let to_center = self.center - ray.origin;
         let along = to_center.dot(ray.direction);
         let off_axis = to_center - ray.direction * along;

@@ -1,4 +1,4 @@
-//! Profiles whose optical depth is known in closed form: for tests, tables and the teaching bench.
+//! Profiles whose optical depth is known in closed form, for tests, tables and the interactive bench.
 
 use super::{Piece, Profile};
 use crate::math;
@@ -7,7 +7,7 @@ use crate::spectrum::Sampled;
 use statrs::function::erf::erf;
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-/// A shape of extinction over x in [0, 1], at most 1.
+/// Extinction as a function of x in [0, 1], at most 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
     /// 1.
@@ -16,7 +16,7 @@ pub enum Shape {
     Ramp,
     /// exp(−(x − ½)²/(2 s²)), s = 0.1.
     Gaussian,
-    /// ½ (1 + cos(2π · 3.3 x)): no symmetry that even steps could profit from.
+    /// ½ (1 + cos(2π · 3.3 x)): without a symmetry that uniform steps could exploit.
     Cosine,
     /// 1, and 0 for 0.37 < x < 0.61.
     Hole,
@@ -27,10 +27,10 @@ const WAVES: f64 = 3.3;
 const HOLE: [f64; 2] = [0.37, 0.61];
 
 impl Shape {
-    /// Every shape.
+    /// All shapes.
     pub const ALL: [Self; 5] = [Self::Constant, Self::Ramp, Self::Gaussian, Self::Cosine, Self::Hole];
 
-    /// Name for people.
+    /// Display name.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,7 +42,7 @@ impl Shape {
         }
     }
 
-    /// The value at x.
+    /// Value at x.
     #[must_use]
     #[inline]
     pub fn value(self, x: f32) -> f32 {
@@ -58,7 +58,7 @@ impl Shape {
         }
     }
 
-    /// ∫ of the value from 0 to x.
+    /// Integral of the value from 0 to x.
     #[must_use]
     pub fn integral(self, x: f64) -> f64 {
         match self {
@@ -73,7 +73,7 @@ impl Shape {
         }
     }
 
-    /// The least and the largest value over [a, b].
+    /// Smallest and largest value over [a, b].
     #[must_use]
     pub fn range(self, a: f32, b: f32) -> (f32, f32) {
         let (at_a, at_b) = (self.value(a), self.value(b));
@@ -83,7 +83,7 @@ impl Shape {
             Self::Constant | Self::Ramp => (low, high),
             Self::Gaussian => (low, if holds(0.5) { 1.0 } else { high }),
             Self::Cosine => {
-                // Crests at whole waves, troughs half a wave after.
+                // Crests at whole periods, troughs half a period later.
                 let met = |offset: f64| {
                     let wave = |x: f32| f64::from(x) * WAVES - offset;
                     wave(a).ceil() <= wave(b).floor()
@@ -99,34 +99,34 @@ impl Shape {
     }
 }
 
-/// Shapes over a ray, one per component, with bounds by cells of even length.
+/// Shapes along a ray, one per component, with bounds over cells of equal length.
 #[derive(Clone, Copy, Debug)]
 pub struct Analytic<const N: usize> {
-    /// Shape of each component, and its largest extinction per scene unit.
+    /// Shape of each component and its largest extinction, per scene unit.
     pub components: [(Shape, f32); N],
-    /// Scene units from end to end.
+    /// Length in scene units.
     pub length: f32,
-    /// Cells that majorants, minorants and means are known of; at least 1.
+    /// Number of cells with a majorant, minorant and mean each; at least 1.
     pub cells: u32,
-    /// Majorant relative to the least upper bound; below 1 it does not bound.
+    /// Majorant relative to the least upper bound; below 1 it is not a bound.
     pub majorant_factor: f32,
 }
 
 impl<const N: usize> Analytic<N> {
-    /// The same shape for all components.
+    /// Creates a profile with the same shape for all components.
     #[must_use]
     pub fn new(shape: Shape, extinction: [f32; N], cells: u32) -> Self {
         Self { components: extinction.map(|e| (shape, e)), length: 1.0, cells, majorant_factor: 1.0 }
     }
 
-    /// ∫μ dt per component.
+    /// Optical depth ∫μ dt per component.
     #[must_use]
     pub fn optical_depth(&self) -> [f64; N] {
         let length = f64::from(self.length);
         self.components.map(|(shape, extinction)| f64::from(extinction) * length * shape.integral(1.0))
     }
 
-    /// exp(−∫μ dt) per component.
+    /// Transmittance exp(−∫μ dt) per component.
     #[must_use]
     pub fn transmittance(&self) -> [f64; N] {
         self.optical_depth().map(|depth| (-depth).exp())
@@ -168,7 +168,7 @@ impl<const N: usize> Profile<N> for Analytic<N> {
     }
 }
 
-/// The cells of an [`Analytic`] that are not empty.
+/// The non-empty cells of an [`Analytic`].
 #[derive(Clone, Debug)]
 pub struct AnalyticPieces<'a, const N: usize> {
     profile: &'a Analytic<N>,
@@ -210,7 +210,7 @@ mod tests {
                     for i in 0..=1000u16 {
                         let t = piece.segment.t0 + piece.length() * f32::from(i) / 1000.0;
                         let [value] = profile.extinction(t, &piece).0;
-                        // At a face the value may be the neighbour's.
+                        // At a face the value may be that of the neighbouring cell.
                         let face = i == 0 || i == 1000;
                         let within =
                             piece.minorant[0] - 1e-5 <= value && value <= piece.segment.majorant[0] + 1e-5;

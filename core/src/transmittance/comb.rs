@@ -1,21 +1,21 @@
-//! Optical depth by look-ups at even distances over the pieces of a ray, what lies between them left out.
+//! Optical depth from look-ups at equal distances over the pieces of a ray; gaps between pieces are left out.
 
 use super::{Piece, Profile};
 use crate::spectrum::Sampled;
 
-/// The pieces of a ray together.
+/// Extent of all pieces of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent<const N: usize> {
-    /// Scene units, gaps left out.
+    /// Total length in scene units, without gaps.
     pub length: f32,
     /// ∫μ̄ of the largest component.
     pub majorant_depth: f32,
-    /// The first piece and the last.
+    /// First and last piece.
     pub ends: [Piece<N>; 2],
 }
 
 impl<const N: usize> Extent<N> {
-    /// `None` for a ray without pieces.
+    /// Measures a ray; `None` for a ray without pieces.
     #[inline]
     pub fn of<P: Profile<N>>(profile: &P) -> Option<Self> {
         let mut pieces = profile.pieces();
@@ -30,7 +30,7 @@ impl<const N: usize> Extent<N> {
     }
 }
 
-/// length/count · Σ μ(place of step j), where step j takes its place at `offset()` of its own stretch.
+/// length/count · Σ μ(position in step j), with the position of step j at `offset()`, in units of a step.
 #[inline]
 pub(super) fn comb<P: Profile<N>, const N: usize>(
     profile: &P,
@@ -52,7 +52,7 @@ pub(super) fn comb<P: Profile<N>, const N: usize>(
         }
         start = end;
     }
-    // Rounding may put the last place beyond the end.
+    // Rounding may put the last position beyond the end.
     let last = &extent.ends[1];
     for _ in taken..count {
         sum += profile.extinction(last.segment.t1, last);

@@ -1,4 +1,4 @@
-//! Flights: collisions of a Poisson process along a ray, each of which multiplies the weight.
+//! Flights: a Poisson process of collisions along a ray, each of which multiplies the weight.
 //!
 //! With any base a(t) per component and any rate r(t) > 0 wherever a ≠ μ,
 //!
@@ -6,37 +6,37 @@
 //!   E[ e^(−∫(a − r) dt) · Π (a(tᵢ) − μ(tᵢ))/r(tᵢ) ] = e^(−∫μ dt)
 //! ```
 //!
-//! over the collisions tᵢ of a Poisson process of rate r. What techniques choose is a and r.
+//! over the collisions tᵢ of a Poisson process of rate r. A technique is defined by its choice of a and r.
 
 use super::{Estimate, Piece, Profile};
 use crate::math::Sampler;
 use crate::spectrum::Sampled;
 
-/// What a technique chooses for a piece.
+/// Rate and base that a technique chooses for a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choice<const N: usize> {
-    /// Collisions per scene unit, r.
+    /// Collision rate r per scene unit.
     pub rate: f32,
     /// Base a, per component and scene unit.
     pub base: Sampled<N>,
 }
 
 impl<const N: usize> Choice<N> {
-    /// a = r for every component: only collisions weigh.
+    /// a = r for every component: only collisions change the weight.
     #[inline]
     pub fn shared(rate: f32) -> Self {
         Self { rate, base: Sampled::splat(rate) }
     }
 
-    /// (a − μ)/r.
+    /// Ratio (a − μ)/r.
     #[inline]
     pub fn ratio(&self, extinction: Sampled<N>) -> Sampled<N> {
         (self.base - extinction) / self.rate
     }
 }
 
-/// Flies along the ray; every collision is a look-up and multiplies the weight by `factor`, whose expectation has
-/// to be [`Choice::ratio`]. Ends early where all components are dark.
+/// Flies along the ray; every collision costs a look-up and multiplies the weight by `factor`, whose
+/// expectation has to be [`Choice::ratio`]. Ends early once the weight is zero at all components.
 #[inline]
 pub(super) fn fly<P: Profile<N>, const N: usize>(
     profile: &P,
@@ -56,7 +56,7 @@ pub(super) fn fly<P: Profile<N>, const N: usize>(
         let mut t = piece.segment.t0;
         loop {
             let left = choice.rate * (piece.segment.t1 - t);
-            // Not `depth < left`, so that a rate of zero passes on.
+            // Not `depth < left`, so that a rate of zero moves on to the next piece.
             if depth >= left {
                 depth -= left;
                 break;

@@ -1,4 +1,5 @@
-//! Ratio tracking as the connections of a path do it: the hero's majorant draws, every component has its own.
+//! Ratio tracking as in the connections of a path: collisions at the rate of the hero's majorant, and a
+//! majorant per component.
 
 use super::flight::{Choice, fly};
 use super::{Entry, Estimate, Profile, Technique};
@@ -13,8 +14,9 @@ impl Technique for HeroRatioTracking {
         id: "ratio-hero",
         name: "Ratio tracking by the hero",
         formula: "T_l ≈ e^(−∫(μ̄_l − μ̄₁)) Π (μ̄_l − μ_l(tᵢ))/μ̄₁ over collisions of rate μ̄₁",
-        summary: "Today's connection. Alone it is noisy wherever the hero is thinner than other components; it is \
-                  meant for multiple importance sampling over heroes, which takes exactly that out.",
+        summary: "The default for connections. Alone it is noisy wherever the hero is thinner than other \
+                  components; it is meant for multiple importance sampling over heroes, which removes this \
+                  noise.",
         cost: "one look-up and one logarithm per collision of the hero, one exponential per piece",
         reference: "Miller, Georgiev and Jarosz 2019, \"A null-scattering path integral formulation of light \
                     transport\"",
@@ -29,7 +31,7 @@ impl Technique for HeroRatioTracking {
             sampler,
             |piece| {
                 let hero = piece.segment.majorant.hero();
-                // Where the hero sees nothing, it would not look for the others.
+                // With the hero's majorant zero, the other components need a rate of their own.
                 let rate = if hero > 0.0 { hero } else { piece.largest_majorant() };
                 Choice { rate, base: piece.segment.majorant }
             },

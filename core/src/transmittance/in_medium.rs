@@ -1,11 +1,11 @@
-//! A ray through a medium, as a profile.
+//! Extinction profile of a ray through a medium.
 
 use super::{Piece, Profile};
 use crate::math::BoxRay;
 use crate::medium::LocalMedium;
 use crate::spectrum::Sampled;
 
-/// Extinction of a medium along a ray: what a connection in a scene estimates the transmittance of.
+/// Extinction of a medium along a ray, for the transmittance of a connection in a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct InMedium<'m, L, const N: usize> {
     medium: &'m L,
@@ -13,7 +13,7 @@ pub struct InMedium<'m, L, const N: usize> {
 }
 
 impl<'m, L: LocalMedium<N>, const N: usize> InMedium<'m, L, N> {
-    /// Along `ray` from its start to its end.
+    /// Creates the profile along `ray` from its start to its end.
     #[must_use]
     #[inline]
     pub fn new(medium: &'m L, ray: BoxRay) -> Self {
@@ -38,7 +38,7 @@ impl<L: LocalMedium<N>, const N: usize> Profile<N> for InMedium<'_, L, N> {
     }
 }
 
-/// The majorant segments of a ray, with what the medium expects there.
+/// The majorant segments of a ray, with the medium's prior minorant and mean.
 pub struct Pieces<'a, L: LocalMedium<N> + 'a, const N: usize> {
     medium: &'a L,
     ray: &'a BoxRay,
@@ -53,7 +53,7 @@ impl<L: LocalMedium<N>, const N: usize> Iterator for Pieces<'_, L, N> {
         let segment = self.segments.next()?;
         let mut known = self.medium.extinction_prior(self.ray.at(0.5 * (segment.t0 + segment.t1)));
         if segment.clamp_null {
-            // The medium is cut off at the majorant.
+            // The extinction is clamped at the majorant.
             known.minorant = known.minorant.zip(segment.majorant, f32::min);
             known.mean = known.mean.zip(segment.majorant, f32::min);
         }

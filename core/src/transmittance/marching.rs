@@ -1,17 +1,19 @@
-//! Ray marching with a fixed step: exp of minus a quadrature. **Biased**, towards too much light where places are
-//! drawn at random, for the exponential is convex (Jensen), and any way where midpoints miss structure.
+//! Ray marching with a fixed step: exp of minus a quadrature. **Biased.**
+//!
+//! The estimate is too bright where positions are random, because the exponential is convex (Jensen), and
+//! wrong either way where midpoints miss structure.
 
 use super::comb::{Extent, comb};
 use super::{Entry, Estimate, Profile, Technique};
 use crate::math::Sampler;
 use crate::spectrum::Sampled;
 
-/// Where in its step a look-up is made.
+/// Position of a look-up within its step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Offset {
-    /// In the middle: the same number every time.
+    /// In the middle: deterministic.
     Midpoint,
-    /// Anywhere, independently in each step.
+    /// Uniformly random, independently in each step.
     #[default]
     Jittered,
 }
@@ -19,9 +21,9 @@ pub enum Offset {
 /// Ray marching.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marching {
-    /// Scene units per step; shortened until steps fill the ray. Not positive: one step.
+    /// Step length in scene units, shortened so that whole steps fill the ray. Not positive: one step.
     pub step: f32,
-    /// Where in a step the look-up is made.
+    /// Position of the look-up within a step.
     pub offset: Offset,
 }
 
@@ -31,7 +33,7 @@ impl Default for Marching {
     }
 }
 
-/// The most steps along one ray: as many as places that a single-precision number tells apart.
+/// Largest number of steps along one ray: the number of positions that single precision distinguishes.
 const MAX_STEPS: f32 = 16_777_216.0;
 
 impl Technique for Marching {
@@ -39,8 +41,8 @@ impl Technique for Marching {
         id: "marching",
         name: "Ray marching (biased)",
         formula: "T ≈ exp(−h Σ μ(tⱼ)) over steps of length h",
-        summary: "What games and many tools do. Little noise at a known price, and wrong: more samples do not help, \
-                  only shorter steps do. Wins nothing but time.",
+        summary: "Common in games and many tools. Low noise at a fixed cost, and biased: only shorter steps \
+                  reduce the error, more samples do not. Wins nothing but time.",
         cost: "one look-up per step, one exponential",
         reference: "Perlin and Hoffert 1989, \"Hypertexture\"; jittered: Pauly, Kollig and Keller 2000, \
                     \"Metropolis light transport for participating media\"",
@@ -53,7 +55,7 @@ impl Technique for Marching {
         let Some(extent) = Extent::of(profile) else {
             return Estimate { weight: Sampled::ONE, lookups: 0 };
         };
-        // As a maximum of 1 also where the step is zero, negative or not a number.
+        // At least 1, also where the step is zero, negative or NaN.
         let steps = if self.step > 0.0 { (extent.length / self.step).ceil().min(MAX_STEPS) } else { 1.0 };
         let count = steps.max(1.0) as u32;
         let depth = comb(profile, &extent, count, || match self.offset {

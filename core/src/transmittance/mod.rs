@@ -2,16 +2,17 @@
 //!
 //! ```text
 //!   Profile (extinction, majorant pieces)  ──►  TransmittanceKind::estimate  ──►  Estimate (T per component, look-ups)
-//!     InMedium: a ray through a medium              one technique a file
+//!     InMedium: a ray through a medium              one technique per file
 //!     Analytic: closed forms for tests
 //! ```
 //!
-//! A line in [`techniques!`](TransmittanceKind) adds one: tests, benchmark and table iterate
-//! [`TransmittanceKind::all`]. Everything is monomorphic, on the stack, and a function of the sampler's numbers.
+//! A line in [`techniques!`](TransmittanceKind) adds one: tests, benchmark and table iterate over
+//! [`TransmittanceKind::all`]. All code is monomorphic, on the stack, and a function of the sampler's
+//! numbers.
 //!
-//! A ray has several components (wavelengths, channels) and every look-up serves all of them. Places are drawn from the
-//! *largest* component's majorant, so that every component's weight stays bounded; [`HeroRatioTracking`]
-//! alone draws from the hero's, as the walk of a path does.
+//! A ray has several components (wavelengths, channels), and every look-up serves all of them. Positions are
+//! drawn from the *largest* component's majorant, so that every component's weight stays bounded; only
+//! [`HeroRatioTracking`] draws from the hero's majorant, as the walk of a path does.
 
 mod analytic;
 mod comb;
@@ -46,20 +47,20 @@ use crate::math::Sampler;
 
 macro_rules! techniques {
     ($($name:ident),+ $(,)?) => {
-        /// Any technique with its settings, to be matched once before a monomorphic loop.
+        /// A technique with its settings, to be matched once before a monomorphic loop.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum TransmittanceKind {
-            $(#[doc = concat!("See [`", stringify!($name), "`].")] $name($name)),+
+            $(#[doc = concat!("The technique [`", stringify!($name), "`] with its settings.")] $name($name)),+
         }
 
         impl TransmittanceKind {
-            /// Every technique with its default settings, in the order that pickers show.
+            /// All techniques with default settings, in the order shown by pickers.
             #[must_use]
             pub fn all() -> Vec<Self> {
                 vec![$(Self::$name($name::default())),+]
             }
 
-            /// How people meet it.
+            /// Description of the technique.
             #[must_use]
             pub const fn entry(&self) -> Entry {
                 match self {
@@ -67,7 +68,7 @@ macro_rules! techniques {
                 }
             }
 
-            /// One estimate of the transmittance along `profile`.
+            /// Draws one estimate of the transmittance along `profile`.
             #[inline]
             pub fn estimate<P: Profile<N>, const N: usize>(
                 &self,
@@ -93,10 +94,10 @@ techniques! {
 }
 
 impl TransmittanceKind {
-    /// What a walk along the path itself does, whose densities multiple importance sampling needs.
+    /// The estimator of a walk along the path itself, whose densities multiple importance sampling needs.
     pub const ALONG_THE_PATH: Self = Self::HeroRatioTracking(HeroRatioTracking);
 
-    /// The technique with this id, with its default settings.
+    /// Finds the technique with this id, with default settings.
     #[must_use]
     pub fn find(id: &str) -> Option<Self> {
         Self::all().into_iter().find(|kind| kind.entry().id == id)

@@ -1,25 +1,28 @@
-//! The power series of the exponential, by its cumulative mass (p-series CMF).
+//! Power series of the exponential with a fixed share of the cumulative mass (p-series CMF).
 //!
-//! With τ̄ = ∫μ̄ and places x drawn with density μ̄*(x)/τ̄*, where * is the component of the largest majorant,
+//! With τ̄ = ∫μ̄ and positions x drawn with density μ̄*(x)/τ̄*, where * is the component of the largest
+//! majorant,
 //!
 //! ```text
 //!   T_l ≈ e^(−τ̄_l) Σ_k w_k Π_{i≤k} τ̄*/i · (μ̄_l − μ_l(xᵢ))/μ̄*(xᵢ)
 //! ```
 //!
-//! As many terms as hold 99 % of the Poisson distribution of mean τ̄* are always taken; after that term k + 1 is with
-//! probability τ̄*/(k + 1) (Bhanot and Kennedy 1985), w_k being one over the chance of coming that far.
+//! The terms that cover 99 % of the Poisson distribution of mean τ̄* are always taken; beyond them, term
+//! k + 1 is taken with probability τ̄*/(k + 1) (Bhanot and Kennedy 1985), and w_k is the reciprocal of the
+//! probability of taking term k.
 //!
-//! A ray is cut into blocks of at most [`PIECES`] pieces and [`DEPTH`] optical depths, whose estimates are independent
-//! and multiply: it needs no buffer that grows, and no factor leaves the range of a single-precision number.
+//! A ray is divided into blocks of at most [`PIECES`] pieces and [`DEPTH`] optical depths, whose independent
+//! estimates are multiplied. This needs no growing buffer, and all factors stay within the range of single
+//! precision.
 
 use super::{Entry, Estimate, Piece, Profile, Technique};
 use crate::math::{self, Sampler};
 use crate::spectrum::Sampled;
 
-/// Georgiev et al.'s estimator.
+/// Estimator of Georgiev et al. 2019.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PowerSeries {
-    /// Share of the Poisson distribution whose terms are always taken: 0.99 in the paper.
+    /// Share of the Poisson distribution whose terms are always taken; 0.99 in the paper.
     pub sure: f32,
 }
 
@@ -29,9 +32,9 @@ impl Default for PowerSeries {
     }
 }
 
-/// Most pieces of a block.
+/// Largest number of pieces of a block.
 const PIECES: usize = 32;
-/// Most optical depth of a block's largest majorant.
+/// Largest optical depth of a block's largest majorant.
 const DEPTH: f32 = 16.0;
 
 impl Technique for PowerSeries {
@@ -39,8 +42,8 @@ impl Technique for PowerSeries {
         id: "power-series",
         name: "Power series (p-series CMF)",
         formula: "T ≈ e^(−τ̄) Σ_k w_k τ̄^k/k! Π_{i≤k} (1 − μ(xᵢ)/μ̄)",
-        summary: "Takes more look-ups than ratio tracking and learns more from each: sums all orders instead of drawing \
-                  one. Wins under tight majorants, by far where extinction is nearly constant.",
+        summary: "Takes more look-ups than ratio tracking and gains more from each: sums all orders instead \
+                  of drawing one. Wins under tight majorants, by far where extinction is nearly constant.",
         cost: "about τ̄ + 2.3 √τ̄ look-ups per block, placed by a search among its pieces",
         reference: "Georgiev, Misso, Hachisuka, Nowrouzezahrai, Křivánek and Jarosz 2019, \"Integral formulations of \
                     volumetric transmittance\"",
@@ -75,7 +78,7 @@ impl Technique for PowerSeries {
 }
 
 impl PowerSeries {
-    /// Multiplies the estimate by a block's.
+    /// Multiplies the estimate by that of a block.
     #[inline]
     fn sum<P: Profile<N>, const N: usize>(
         &self,
@@ -85,11 +88,11 @@ impl PowerSeries {
         estimate: &mut Estimate<N>,
     ) {
         let depth = block.depth();
-        // Below 1, or rounding could keep the sum of all masses from reaching it.
+        // Below 1, as with rounding the sum of all masses might not reach 1.
         let sure = self.sure.clamp(0.0, 0.9999);
         let mut mass = math::exp(-depth);
         if mass <= 0.0 {
-            // So dense that a block's depth is less than rounding in places: nothing comes through.
+            // So dense that a block's depth is below the rounding of positions: the transmittance is zero.
             estimate.weight = Sampled::ZERO;
             return;
         }
@@ -118,10 +121,10 @@ impl PowerSeries {
     }
 }
 
-/// Some pieces of a ray, to find places in.
+/// Consecutive pieces of a ray in which positions are sampled.
 struct Block<const N: usize> {
     pieces: [Piece<N>; PIECES],
-    /// Optical depth of the largest majorant up to the end of each.
+    /// Optical depth of the largest majorant up to the end of each piece.
     ends: [f32; PIECES],
     count: usize,
     /// ∫μ̄ per component.
@@ -147,7 +150,7 @@ impl<const N: usize> Block<N> {
         self.count == PIECES || self.depth() >= DEPTH
     }
 
-    /// Adds a piece, or as much of it as there is room for; not to be called when full.
+    /// Adds a piece, or the part of it that fits; must not be called when the block is full.
     #[inline]
     fn push(&mut self, piece: &Piece<N>) -> Pushed {
         let rate = piece.largest_majorant();
@@ -161,7 +164,7 @@ impl<const N: usize> Block<N> {
         let mut end = whole;
         if whole > DEPTH {
             let t = piece.segment.t0 + (DEPTH - before) / rate;
-            // A cut that rounds to one of the piece's ends is none.
+            // No cut where it rounds to one of the piece's ends.
             if piece.segment.t0 < t && t < piece.segment.t1 {
                 piece.segment.t1 = t;
                 pushed = Pushed::UpTo(t);
@@ -176,7 +179,7 @@ impl<const N: usize> Block<N> {
         pushed
     }
 
-    /// The piece and ray parameter at an optical depth below [`Self::depth`].
+    /// Piece and ray parameter at an optical depth below [`Self::depth`].
     #[inline]
     fn place(&self, depth: f32) -> (&Piece<N>, f32) {
         let mut i = 0;

@@ -1,4 +1,4 @@
-//! Ratio tracking: every collision is taken as null, and its probability is the weight.
+//! Ratio tracking: every collision is taken as null, and the probability of that is the weight.
 
 use super::flight::{Choice, fly};
 use super::{Entry, Estimate, Profile, Technique};
@@ -13,9 +13,10 @@ impl Technique for RatioTracking {
         id: "ratio",
         name: "Ratio tracking",
         formula: "T ≈ Π (μ̄ − μ(tᵢ))/μ̄ over collisions of rate μ̄ = max over components",
-        summary: "Weighs instead of deciding: never more variance than delta tracking under the same majorant, if that bounds. Wins \
-                  where majorants are tight to the void around a medium, and thin.",
-        cost: "one look-up and one logarithm per collision: ∫μ̄ of them, whatever comes through",
+        summary: "Weights every collision instead of deciding it: never more variance than delta tracking \
+                  under the same majorant, if that is a bound. Wins where majorants are low and fit tightly \
+                  around empty space.",
+        cost: "one look-up and one logarithm per collision: ∫μ̄ of them, whatever the transmittance",
         reference: "Cramer 1978; Novák, Selle and Jarosz 2014, \"Residual ratio tracking for estimating attenuation \
                     in participating media\"",
         unbiased: true,

@@ -1,4 +1,4 @@
-//! What every technique is and gives.
+//! Common interface of the transmittance techniques.
 
 use super::Profile;
 use crate::math::Sampler;
@@ -7,40 +7,40 @@ use crate::spectrum::Sampled;
 /// An estimate of exp(−∫μ dt).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate<const N: usize> {
-    /// Transmittance per component. Estimates of components are correlated: they share their look-ups.
+    /// Transmittance per component. The estimates of components are correlated, as they share look-ups.
     pub weight: Sampled<N>,
-    /// Evaluations of the extinction.
+    /// Number of evaluations of the extinction.
     pub lookups: u32,
 }
 
-/// A technique as people meet it.
+/// Registry entry of a technique.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Stable id, for files and the command line.
     pub id: &'static str,
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
-    /// What is computed, in one line.
+    /// Formula, in one line.
     pub formula: &'static str,
-    /// What it does and when it wins, in one or two sentences.
+    /// One or two sentences on the method and when it wins.
     pub summary: &'static str,
-    /// What it costs.
+    /// Cost per estimate.
     pub cost: &'static str,
-    /// Where it comes from.
+    /// Source in the literature.
     pub reference: &'static str,
     /// Whether the expectation is the transmittance.
     pub unbiased: bool,
-    /// Whether its null collisions are those of a walk through the medium, drawn with a density that is known per
-    /// component: multiple importance sampling can then weigh the connection against the walk, vertex by
-    /// vertex. Without, the estimate is a number that can be multiplied with, and no more.
+    /// Whether its null collisions are those of a walk through the medium, drawn with a density known per
+    /// component. Multiple importance sampling can then weight the connection against the walk. Otherwise the
+    /// estimate is only a factor of the contribution.
     pub has_pdf: bool,
 }
 
-/// A way to estimate transmittance along a ray.
+/// Estimator of transmittance along a ray.
 pub trait Technique: Copy + Default {
-    /// How people meet it.
+    /// Description of the technique.
     const ENTRY: Entry;
 
-    /// One estimate from independent random numbers.
+    /// Draws one estimate from independent random numbers.
     fn estimate<P: Profile<N>, const N: usize>(&self, profile: &P, sampler: &mut Sampler) -> Estimate<N>;
 }

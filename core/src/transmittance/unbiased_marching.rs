@@ -1,32 +1,32 @@
-//! Unbiased ray marching: marching most of the time, and rarely what takes its bias out.
+//! Unbiased ray marching: marching most of the time, and rarely a correction that removes its bias.
 //!
-//! Optical depths −Xᵢ are independent marches, each a comb of M look-ups at even distances under one random shift.
-//! The exponential is expanded in a power series about each of them in turn,
+//! The optical depths −Xᵢ are independent marches, each a comb of M equidistant look-ups under one random
+//! shift. The exponential is expanded in a power series about each Xᵢ in turn,
 //!
 //! ```text
 //!   T ≈ 1/(n+1) Σᵢ e^(Xᵢ) Σ_{k≤n} w_k/k! · m_k({Xⱼ − Xᵢ}, j ≠ i),   w_k = 1/P(order ≥ k)
 //! ```
 //!
 //! where m_k is the elementary symmetric mean: the mean over all k-subsets of the product, a U-statistic of
-//! (E[X] − Xᵢ)^k. The order n is 0 with probability `zero_order`, else Bhanot and Kennedy's roulette from K = c = 2
-//! on: order k is reached from k − 1 with probability c/k. The tuple size M follows from ∫μ̄ and from how many
-//! look-ups the power series would take there.
+//! (E[X] − Xᵢ)^k. The order n is 0 with probability `zero_order`, otherwise drawn by Bhanot and Kennedy's
+//! roulette from K = c = 2 on: order k is reached from k − 1 with probability c/k. The tuple size M follows
+//! from ∫μ̄ and the number of look-ups that the power series would take there.
 //!
-//! Orders end at [`MAX_ORDER`], which is reached once in 10¹⁸ estimates; what is missing beyond is less than the
-//! rounding of what is there.
+//! Orders end at [`MAX_ORDER`], which is reached once in 10¹⁸ estimates; the truncated remainder is less than
+//! the rounding error of the sum.
 
 use super::comb::{Extent, comb};
 use super::{Entry, Estimate, Profile, Technique};
 use crate::math::Sampler;
 use crate::spectrum::Sampled;
 
-/// Kettunen et al.'s estimator.
+/// Estimator of Kettunen et al. 2021.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnbiasedMarching {
-    /// Probability of plain ray marching, below 1: 0.9 in the paper.
+    /// Probability of plain ray marching, below 1; 0.9 in the paper.
     pub zero_order: f32,
-    /// Looks up both ends of the ray and takes the straight line between them out of the comb's error, which then
-    /// is that of a periodic function; two more look-ups per estimate.
+    /// Looks up both ends of the ray and removes the straight line between them from the comb's error, which
+    /// then is that of a periodic function; costs two more look-ups per estimate.
     pub match_ends: bool,
 }
 
@@ -38,7 +38,7 @@ impl Default for UnbiasedMarching {
 
 /// Highest order of the series.
 const MAX_ORDER: usize = 24;
-/// Orders that are always taken once any is, K; and c of the roulette.
+/// Lowest order above zero that is always taken (K); and factor c of the roulette.
 const SURE_ORDER: usize = 2;
 const ROULETTE: f32 = 2.0;
 
@@ -47,9 +47,9 @@ impl Technique for UnbiasedMarching {
         id: "unbiased-marching",
         name: "Unbiased ray marching",
         formula: "T ≈ mean over i of e^(Xᵢ) Σ w_k/k! m_k({Xⱼ − Xᵢ}), −Xᵢ marched optical depths",
-        summary: "Exact where extinction is constant, otherwise as quiet as ray marching that was given the same \
-                  look-ups, without its bias. Wins nearly everywhere that is smooth at the scale of its comb; loses \
-                  in thin air, where ratio tracking looks nothing up.",
+        summary: "Exact where extinction is constant, otherwise with the noise of ray marching at the same \
+                  number of look-ups, without its bias. Wins nearly everywhere that is smooth at the scale \
+                  of its comb; loses in thin media, where ratio tracking takes hardly any look-ups.",
         cost: "2 + 1.3 M look-ups, M about (∫μ̄)/1.3 where that is large; one exponential in nine cases of ten",
         reference: "Kettunen, d'Eon, Pantaleoni and Novák 2021, \"An unbiased ray-marching transmittance estimator\"",
         unbiased: true,
@@ -61,7 +61,7 @@ impl Technique for UnbiasedMarching {
         let Some(extent) = Extent::of(profile) else {
             return Estimate { weight: Sampled::ONE, lookups: 0 };
         };
-        // A series must have some chance.
+        // The series needs a probability above zero.
         let higher = (1.0 - self.zero_order).clamp(1e-3, 1.0);
         let (order, weights) = draw_order(higher, sampler);
         let count = tuple_size(extent.majorant_depth, higher);
@@ -74,7 +74,7 @@ impl Technique for UnbiasedMarching {
         }
         let mut march = || {
             let shift = sampler.next_1d();
-            // The comb's mean place is (shift − ½)/count beyond the middle.
+            // The comb's mean position is (shift − ½)/count beyond the middle, relative to the length.
             let error = slope * (extent.length * (shift - 0.5) / count as f32);
             error - comb(profile, &extent, count, || shift)
         };
@@ -89,7 +89,7 @@ impl Technique for UnbiasedMarching {
     }
 }
 
-/// An order n, and w_k = 1/P(order ≥ k) for every k up to it.
+/// Draws an order n; also returns w_k = 1/P(order ≥ k) for every k up to n.
 #[inline]
 fn draw_order(higher: f32, sampler: &mut Sampler) -> (usize, [f32; MAX_ORDER + 1]) {
     let mut weights = [1.0; MAX_ORDER + 1];
@@ -111,7 +111,7 @@ fn draw_order(higher: f32, sampler: &mut Sampler) -> (usize, [f32; MAX_ORDER + 1
     (order, weights)
 }
 
-/// Look-ups per march: N_CMF, a fit of what the power series takes, shared among the marches that are expected.
+/// Look-ups per march: N_CMF, a fit of the look-ups of the power series, divided among the expected marches.
 #[inline]
 fn tuple_size(majorant_depth: f32, higher: f32) -> u32 {
     // Σ_{j≥0} P(order ≥ 2 + j | order > 0), with e² − 5 for the tail of the series.
@@ -121,7 +121,7 @@ fn tuple_size(majorant_depth: f32, higher: f32) -> u32 {
     (power_series / (1.0 + higher * ORDER_IF_ANY)).round().max(1.0) as u32
 }
 
-/// The series about every march in turn, from the elementary symmetric means of the others.
+/// Series about every march in turn, from the elementary symmetric means of the others.
 fn combine<const N: usize>(marches: &[Sampled<N>], weights: &[f32; MAX_ORDER + 1]) -> Sampled<N> {
     let order = marches.len() - 1;
     let mut total = Sampled::ZERO;
@@ -151,7 +151,7 @@ fn combine<const N: usize>(marches: &[Sampled<N>], weights: &[f32; MAX_ORDER + 1
 mod tests {
     use super::*;
 
-    /// Against the sum over subsets itself.
+    /// Compared with the sum over subsets.
     #[test]
     fn symmetric_means_are_those_of_all_subsets() {
         let marches = [-0.3f32, -1.1, 0.4, -0.7].map(|x| Sampled([x]));

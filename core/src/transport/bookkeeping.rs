@@ -1,4 +1,4 @@
-//! What an estimator keeps of a path, whichever way it does.
+//! Traits of the path weights, and the forms in which an estimator can store them.
 
 use super::{
     Collision, DirectionSample, FaultyWeights, PathSettings, PathWeights, WeightRecord, WeightsApart,
@@ -7,97 +7,101 @@ use super::{
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
-/// f, p_uni and p_nee of a path under construction, in some form.
+/// f, p_uni and p_nee of a path under construction, in any form.
 pub trait WalkWeights<const N: usize>: Copy {
-    /// A path that has just left the camera.
+    /// Weights of a path that has just left the camera.
     const CAMERA: Self;
 
-    /// The same, for paths with these settings.
+    /// Initial weights for paths with these settings.
     #[must_use]
     fn starting(_: &PathSettings) -> Self {
         Self::CAMERA
     }
 
-    /// A stretch without collision, of optical depth μ̄ᵢ t by the majorants: e^(−μ̄ᵢ t) for all. The
-    /// exponential is taken once for many stretches, when a value is asked for.
+    /// Multiplies in a stretch without collision, of majorant optical depth μ̄ᵢ t: e^(−μ̄ᵢ t) for all three.
+    /// The exponential may be evaluated once for many stretches, when a value is computed.
     fn pass(&mut self, optical_depth: Sampled<N>);
 
-    /// A collision that the walk has drawn as null. Next-event estimation takes every collision of a
-    /// connection as null, hence its μ̄.
+    /// Updates the weights for a collision that the walk has drawn as null. p_nee is multiplied by μ̄,
+    /// because next-event estimation takes every collision of a connection as null.
     fn null(&mut self, c: &Collision<N>);
 
-    /// A collision on a connection, which takes all as null (ratio tracking).
+    /// Updates the weights for a collision on a connection, where ratio tracking takes every collision as
+    /// null.
     fn null_by_ratio(&mut self, c: &Collision<N>);
 
-    /// A collision that the walk has drawn as scattering: μs, without the phase function.
+    /// Updates the weights for a collision that the walk has drawn as scattering: μs, without the phase
+    /// function.
     fn scatter(&mut self, c: &Collision<N>);
 
-    /// A diffuse reflection: its albedo, without the cosine lobe.
+    /// Updates the weights for a diffuse reflection: its albedo, without the cosine lobe.
     fn reflect(&mut self, albedo: Sampled<N>);
 
-    /// Leaves a vertex in a direction that was drawn: f gains the phase function or cosine lobe, p_uni the
-    /// density; p_nee neither, as a light would have been sampled here instead. The light's own density
-    /// joins p_nee in [`Weights::combined`].
+    /// Updates the weights for leaving a vertex in a sampled direction: f is multiplied by the phase function
+    /// or cosine lobe, p_uni by the density, and p_nee by neither, as next-event estimation would have
+    /// sampled a light here. The light's density is multiplied into p_nee in [`Weights::combined`].
     fn leave(&mut self, outgoing: &DirectionSample);
 
-    /// The value of a path that ends at a collision, where the medium emits: every tentative collision is such an
-    /// end, so that its density is p_uni,i μ̄_i, and by the balance heuristic f_j μa_j / mean (p_uni,i μ̄_i).
+    /// Value of a path that ends at a collision where the medium emits. Every tentative collision is such an
+    /// end, so its density is p_uni,i μ̄_i, and with the balance heuristic the value is
+    /// f_j μa_j / mean (p_uni,i μ̄_i).
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R;
 
-    /// Continues with probability `q`.
+    /// Updates the weights for surviving Russian roulette with probability `q`.
     fn survive(&mut self, q: f32);
 
-    /// How bright the path is at its brightest component relative to how likely it is for any hero;
-    /// the same whichever component is the hero.
+    /// Largest contribution of any component, divided by the mean density over heroes; independent of which
+    /// component is the hero.
     fn throughput(&self) -> f32;
 
-    /// The numbers that are kept, for whoever looks on.
+    /// Returns the weights in their stored form, for an observer.
     fn kept(&self) -> WeightRecord;
 
-    /// Whether nothing can come of the path any more.
+    /// Whether the path can no longer contribute.
     fn is_dark(&self) -> bool;
 
-    /// The path's value if only unidirectional sampling makes it; by the balance heuristic f_j / mean p_uni.
+    /// Value of a path made by unidirectional sampling only; with the balance heuristic f_j / mean p_uni.
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;
 }
 
-/// What an estimator keeps of a path from whose vertices it connects to lights.
+/// Path weights of an estimator that connects vertices to lights.
 pub trait Weights<const N: usize>: WalkWeights<N> {
-    /// A connection from a vertex in a direction that was drawn with `light_density`, and would be a turn of
-    /// the path. From here on P is p_nee of the hero.
+    /// Weights of a connection from a vertex in the direction `outgoing`, drawn with `light_density`; the
+    /// walk would have drawn it with the density in `outgoing`. From here on P is p_nee of the hero.
     #[must_use]
     fn connect(&self, outgoing: &DirectionSample, light_density: f32) -> Self;
 
-    /// A connection's transmittance, estimated by something that has no density.
+    /// Multiplies in a connection's transmittance from an estimator that has no path density.
     fn attenuate(&mut self, transmittance: Sampled<N>);
 
-    /// A connection's value if only connections make such paths; by the balance heuristic f_j / mean p_nee.
+    /// Value of a connection where only connections make such paths; with the balance heuristic
+    /// f_j / mean p_nee.
     fn connected_only<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;
 
-    /// The value of a walk that has met a light which light sampling would have drawn with
-    /// `light_density`; by the balance heuristics f_j / mean (p_uni + p_nee).
+    /// Value of a walk that has reached a light which light sampling would have drawn with `light_density`;
+    /// with the balance heuristics f_j / mean (p_uni + p_nee).
     fn combined<R: Radiance<N>>(&self, radiance: R, light_density: f32, heuristics: Heuristics) -> R;
 
-    /// The value of a connection; by the balance heuristics f_j / mean (p_uni + p_nee). Its light density is
-    /// in P already.
+    /// Value of a connection; with the balance heuristics f_j / mean (p_uni + p_nee). P already includes its
+    /// light density.
     fn connected_combined<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;
 }
 
-/// A way to keep the books: the form of the weights at any number of components.
+/// Form of the path weights, for any number of components.
 pub trait WeightForm {
-    /// The form.
+    /// Weights in this form.
     type Weights<const N: usize>: Weights<N>;
 }
 
-/// Quotients by the density with which the path was made: the default.
+/// Quotients by the density with which the path was made ([`PathWeights`]); the default.
 #[derive(Clone, Copy, Debug)]
 pub struct Rescaled;
 
-/// f and p apart in single precision, as the report prints them.
+/// Separate f and p in single precision, as in the report.
 #[derive(Clone, Copy, Debug)]
 pub struct ApartF32;
 
-/// f and p apart in double precision.
+/// Separate f and p in double precision.
 #[derive(Clone, Copy, Debug)]
 pub struct ApartF64;
 
@@ -105,7 +109,7 @@ pub struct ApartF64;
 #[derive(Clone, Copy, Debug)]
 pub struct Pairwise;
 
-/// Quotients with a planted mistake.
+/// Rescaled weights with a deliberate error ([`FaultyWeights`]).
 #[derive(Clone, Copy, Debug)]
 pub struct Faulty;
 

@@ -1,7 +1,7 @@
 //! Next-event estimation: a connection from a vertex to a point drawn on a light.
 //!
-//! Every collision on the way is taken as null (ratio tracking), so that the connection always
-//! arrives, with the transmittance as its weight (the report's algorithm 6, mode "nee").
+//! Every collision on the connection is taken as null (ratio tracking), so that the connection always
+//! reaches the light, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
 use super::{Collision, DirectionSample, Note, Technique, Trace, Vertex, WalkWeights, Weights, World};
 use crate::light::{Emitter, LobeParts};
@@ -15,28 +15,28 @@ use glam::{Vec2, Vec3};
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
 pub struct Connection<R, W> {
-    /// Weights of the whole path, camera to light, as made by the connection.
+    /// Weights of the whole path, from camera to light, as made by the connection.
     pub weights: W,
     /// Emitted radiance.
     pub radiance: R,
-    /// The turn of the path at its vertex, and the density with which the walk would have taken it.
+    /// Direction at the vertex, with the density with which the walk would have drawn it.
     pub outgoing: DirectionSample,
 }
 
-/// A direction drawn towards a light, of which nothing stands in the way but the medium.
+/// A direction sampled towards a light, with only the medium in between.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim<R> {
-    /// Phase function or cosine lobe, and the density with which the path itself would go there.
+    /// Phase function or cosine lobe, and the density with which the walk would have drawn the direction.
     pub outgoing: DirectionSample,
-    /// From the vertex.
+    /// Ray from the vertex.
     pub ray: Ray,
-    /// To the light.
+    /// Distance to the light.
     pub distance: f32,
-    /// Density with which it was drawn, the choice of the light included; per steradian.
+    /// Density with which the direction was drawn, including the choice of the light; per steradian.
     pub density: f32,
     /// Emitted radiance.
     pub radiance: R,
-    /// Which light it is.
+    /// Index of the light.
     pub light: usize,
 }
 
@@ -54,8 +54,8 @@ impl<R> Aim<R> {
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
-    /// As [`Self::connect`], but the transmittance is estimated as the settings say. It then has no density of its
-    /// own, so that nothing but heroes can share the path.
+    /// As [`Self::connect`], with the transmittance estimator of the settings. Such an estimate has no path
+    /// density, so that MIS can weight the path only over heroes.
     pub fn connect_by_estimate<W: Weights<N>>(
         &self,
         vertex: &Vertex,
@@ -74,7 +74,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
     }
 
-    /// Draws a light and a direction towards it, and walks there. `None` if nothing arrives.
+    /// Chooses a light, draws a direction towards it, and walks to the light. `None` if the contribution is
+    /// zero.
     pub fn connect<W: Weights<N>>(
         &self,
         vertex: &Vertex,
@@ -87,7 +88,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
     }
 
-    /// Passes the way to a light, as [`Self::pass_by_ratio`].
+    /// Traverses the connection to a light by [`Self::pass_by_ratio`].
     #[inline]
     pub fn arrive<W: WalkWeights<N>>(
         &self,
@@ -103,7 +104,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         weights
     }
 
-    /// Passes a stretch of a ray, with every collision taken as null (ratio tracking); `None` if nothing is left.
+    /// Traverses a stretch of a ray by ratio tracking, with every collision taken as null; `None` if the
+    /// contribution becomes zero.
     #[inline]
     pub fn pass_by_ratio<W: WalkWeights<N>>(
         &self,
@@ -123,7 +125,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some(weights)
     }
 
-    /// The collision that a walk might have at a point of a ray; `None` where it has none.
+    /// The collision that a walk could have at a point of a ray; `None` outside the medium.
     pub fn collision_at(&self, ray: &Ray, t: f32, trace: &mut Trace<'_>) -> Option<Collision<N>> {
         let point = ray.at(t);
         let onward = Ray { origin: point, direction: ray.direction };
@@ -135,7 +137,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         (segment.t0 <= 0.0).then(|| Collision::new(point, coefficients, (&self.settings).into()))
     }
 
-    /// Draws a light and a direction towards it; `None` if it is dark there, or something stands in the way.
+    /// Chooses a light and draws a direction towards it; `None` if the contribution is zero or the light is
+    /// occluded.
     pub fn aim(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> Option<Aim<C::Radiance>> {
         trace.start_side_stream(SideStream::Connection);
         let (u, which) = trace.sampler.light(&mut trace.connection);
@@ -145,8 +148,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some(Aim { density: aim.density * probability, ..aim })
     }
 
-    /// Draws a direction towards a light, whose choice its density leaves out; `None` if it is dark there, or
-    /// something stands in the way.
+    /// Draws a direction towards a light, without the probability of choosing it; `None` if the contribution
+    /// is zero or the light is occluded.
     #[inline]
     pub fn aim_at(&self, vertex: &Vertex, index: usize, u: Vec2) -> Option<Aim<C::Radiance>> {
         let light = self.scene.lights.get(index)?;
@@ -156,7 +159,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         };
         let outgoing = self.directions().towards(vertex, sample.direction);
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
-        // Occluders are looked for short of the light itself; the medium reaches all the way.
+        // The occlusion test ends just short of the light; the medium extends all the way.
         if outgoing.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
             return None;
         }
@@ -170,8 +173,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         })
     }
 
-    /// Adds the light that a walk finds at the end of a ray, weighted against the connections of the vertex `last` that it
-    /// left. Without such a vertex (a ray of the camera) no connection could have made the path.
+    /// Adds the lights at the end of a walk's ray, weighted against connections from the vertex `last` that
+    /// the walk left. Without such a vertex (a camera ray) no connection could have made the path.
     #[inline]
     pub fn add_light_on_ray<W: Weights<N>>(
         &self,
@@ -195,8 +198,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         }
     }
 
-    /// The density with which [`Self::aim`] draws a direction at a vertex that reaches a light after `distance`; per
-    /// steradian, the choice of the light included.
+    /// Density with which [`Self::aim`] draws the direction from a vertex to a light at `distance`; per
+    /// steradian, including the choice of the light.
     #[must_use]
     pub fn aim_density(&self, vertex: &Vertex, index: usize, direction: Vec3, distance: f32) -> f32 {
         let (from, scene) = (vertex.point(), self.scene);
@@ -207,7 +210,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         density * scene.light_choice.probability(index, from, self.settings.lights)
     }
 
-    /// What is scattered towards the lights at a vertex, if connections are drawn by it.
+    /// The lobe parts at a vertex, if connections are drawn from them.
     #[inline]
     fn product<'v>(&self, vertex: &'v Vertex) -> Option<&'v LobeParts> {
         match (self.settings.light_sampling, vertex) {
@@ -216,7 +219,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         }
     }
 
-    /// Transmittance along a ray, estimated as the settings say.
+    /// Transmittance along a ray, by the estimator of the settings.
     pub fn estimate_transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
         let Some((_, inside)) = BoxRay::enter(ray, &self.scene.medium_from_world, t_max) else {
             return Sampled::ONE;

@@ -1,4 +1,4 @@
-//! How a path turns at a vertex: what it is worth, and how likely it is.
+//! Sampling of outgoing directions at a vertex, with their value and density.
 
 use super::Vertex;
 use crate::light::LightLobes;
@@ -7,31 +7,31 @@ use crate::phase::Phase;
 use glam::{Vec2, Vec3};
 use std::f32::consts::FRAC_1_PI;
 
-/// Share of directions in a medium that are drawn towards the lights, if any are.
+/// Probability of drawing a direction in the medium from the guide, if there is one.
 const GUIDED: f32 = 0.3;
 
-/// Everything that directions are drawn from.
+/// Distributions from which outgoing directions are drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionSampler<'a> {
     /// The medium's phase function.
     pub phase: &'a Phase,
-    /// What guides paths to the lights, if anything does.
+    /// Guiding distribution towards the lights, if any.
     pub guide: Option<Guide<'a>>,
 }
 
-/// Directions that are mixed with the phase function's.
+/// Guiding distribution, mixed with the phase function.
 #[derive(Clone, Copy, Debug)]
 pub enum Guide<'a> {
     /// Broad lobes towards the lights.
     Lobes(&'a LightLobes),
-    /// The parts of the phase function in which the vertex sees the lights.
+    /// Parts of the phase function that cover the lights as seen from the vertex.
     Product,
 }
 
-/// A direction out of a vertex.
+/// Direction of a path out of a vertex.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionSample {
-    /// Where the path goes.
+    /// Outgoing direction.
     pub direction: Vec3,
     /// Phase function or cosine lobe, per steradian.
     pub value: f32,
@@ -40,7 +40,7 @@ pub struct DirectionSample {
 }
 
 impl DirectionSampler<'_> {
-    /// Value and density of leaving a vertex in a direction.
+    /// Value and density of leaving a vertex in a given direction.
     #[must_use]
     #[inline]
     pub fn towards(&self, vertex: &Vertex, direction: Vec3) -> DirectionSample {
@@ -55,7 +55,7 @@ impl DirectionSampler<'_> {
         }
     }
 
-    /// Draws the direction that a path leaves a vertex in.
+    /// Draws the direction in which a path leaves a vertex.
     #[must_use]
     #[inline]
     pub fn draw(&self, vertex: &Vertex, mut u: Vec2) -> DirectionSample {
@@ -82,7 +82,7 @@ impl DirectionSampler<'_> {
         }
     }
 
-    /// A direction from the guide, if it has any at this vertex.
+    /// Draws a direction from the guide, if it applies at this vertex.
     #[inline]
     fn guided(&self, vertex: &Vertex, u: Vec2) -> Option<Vec3> {
         match (self.guide?, vertex) {
@@ -92,7 +92,7 @@ impl DirectionSampler<'_> {
         }
     }
 
-    /// The density of a mixture, of which the phase function has one share and the guide the other.
+    /// Direction sample with the density of the mixture of phase function and guide.
     #[inline]
     fn mixed(&self, vertex: &Vertex, direction: Vec3, value: f32) -> DirectionSample {
         let guided = match (self.guide, vertex) {

@@ -1,5 +1,5 @@
-//! What a renderer without path densities offers: flights, connections and transmittance as weights that are
-//! divided by their density already (the report's algorithms 1–3).
+//! Flights, connections and transmittance without path densities, as weights already divided by their
+//! sampling density (the report's algorithms 1–3).
 
 use super::{Aim, Event, Note, PathWeights, Trace, WalkWeights, World};
 use crate::math::{BoxRay, Ray, exp};
@@ -7,18 +7,19 @@ use crate::medium::LocalMedium;
 use crate::spectrum::{Components, Sampled};
 use glam::Vec3;
 
-/// A free flight: φ_m of the report's algorithms 2 and 3.
+/// Free flight: φ_m of the report's algorithms 2 and 3.
 #[derive(Clone, Copy, Debug)]
 pub struct Flight<const N: usize> {
-    /// Where it scatters; `None` if it leaves the medium.
+    /// Scattering position; `None` if the flight leaves the medium.
     pub scattered_at: Option<Vec3>,
-    /// Transmittance, times μs where it scatters, over the density of it.
+    /// Transmittance, times μs at a scattering position, divided by the sampling density.
     pub weight: Sampled<N>,
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
-    /// Flies until something scatters: by the mean extinction where the medium is uniform (algorithm 2), by
-    /// delta tracking elsewhere (algorithm 3), whose components must share one extinction.
+    /// Samples a flight to the next scattering: from the mean extinction where the medium is uniform
+    /// (algorithm 2), by delta tracking elsewhere (algorithm 3), where all components must share one
+    /// extinction.
     pub fn sample_distance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Flight<N> {
         let flight = self.fly(ray, t_max, trace);
         let Flight { scattered_at, weight } = flight;
@@ -35,7 +36,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             let mean = extinction.mean();
             let t = trace.sampler.optical_depth() / mean.max(f32::MIN_POSITIVE);
             let beyond = (extinction - Sampled::splat(mean)) * -t.min(inside.t_end);
-            // e^(−t μt) / e^(−t mean), the densities' common factor taken out before it underflows.
+            // e^(−t μt) / e^(−t mean), evaluated as one exponential so that it does not underflow.
             let ratio = beyond.exp();
             return if t < inside.t_end {
                 trace.lookups += 1;
@@ -68,8 +69,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         transmittance
     }
 
-    /// Transmittance along a ray up to `t_max`: exact where the medium is uniform, estimated elsewhere, by ratio tracking unless the
-    /// settings say otherwise.
+    /// Transmittance along a ray up to `t_max`: exact where the medium is uniform, estimated elsewhere, by
+    /// ratio tracking unless the settings select another estimator.
     pub fn transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
         if let Some((extinction, _)) = self.medium.uniform() {
             let inside = BoxRay::enter(ray, &self.scene.medium_from_world, t_max);

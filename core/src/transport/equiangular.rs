@@ -1,12 +1,12 @@
-//! Equiangular sampling: distances along a ray such that a point is seen to turn by equal angles.
+//! Equiangular sampling: distances along a ray, uniform in the angle at a pivot.
 //!
-//! With D the distance of the pivot from the ray, and t counted from the foot of its perpendicular,
+//! With D the distance of the pivot from the ray, and t measured from the foot of the perpendicular,
 //!
 //! ```text
 //!   p(t) = D / ((θ_b − θ_a) (D² + t²))      t = D tan θ, θ uniform from θ_a to θ_b
 //! ```
 //!
-//! which is the inverse square of the distance to the pivot, normalised (Kulla and Fajardo 2012, section 4.1).
+//! This is the inverse square of the distance to the pivot, normalised (Kulla and Fajardo 2012, section 4.1).
 
 use super::{LightDensities, World};
 use crate::math::{BoxRay, Ray};
@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::spectrum::Components;
 use glam::Vec3;
 
-/// The part of a ray inside the medium.
+/// Part of a ray inside the medium.
 #[derive(Clone, Copy, Debug)]
 pub struct Passage {
     /// The ray.
@@ -24,18 +24,19 @@ pub struct Passage {
     far: f32,
 }
 
-/// A passage as seen from a pivot.
+/// Passage relative to a pivot.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     /// Distance of the pivot from the ray.
     height: f32,
-    /// From the foot of the perpendicular to where the passage begins.
+    /// Signed distance from the foot of the perpendicular to the start of the passage.
     start: f32,
-    /// The angle that it is seen under.
+    /// Angle that the passage subtends at the pivot.
     angle: f32,
 }
 
-/// A pivot on the ray would make all distances one; it is held this share of the passage away.
+/// Smallest distance of a pivot from the ray, relative to the length of the passage. With a pivot on the ray
+/// all samples would be at one distance.
 const LEAST_HEIGHT: f32 = 1e-3;
 
 impl Passage {
@@ -52,12 +53,13 @@ impl Passage {
         let height = (to_pivot - self.ray.direction * foot).length();
         let (start, length) = (self.near - foot, self.far - self.near);
         let height = height.max(LEAST_HEIGHT * length);
-        // The tangent of a difference of two angles that far away are nearly the same.
+        // Tangent of a difference of angles, which for a distant pivot are nearly equal.
         let angle = (height * length).atan2(height * height + start * (start + length));
         Seen { height, start, angle }
     }
 
-    /// Draws a distance along the ray by a number uniform in [0, 1), with its density per unit of length.
+    /// Samples a distance along the ray from a number uniform in [0, 1); returns it with its density per
+    /// scene unit.
     #[must_use]
     pub fn sample(&self, pivot: Vec3, u: f32) -> (f32, f32) {
         let Seen { height, start, angle } = self.seen_from(pivot);
@@ -67,36 +69,37 @@ impl Passage {
         (t, self.density(pivot, t))
     }
 
-    /// The density with which [`Self::sample`] draws a distance.
+    /// Density with which [`Self::sample`] draws a distance.
     #[must_use]
     pub fn density(&self, pivot: Vec3, t: f32) -> f32 {
         let Seen { height, start, angle } = self.seen_from(pivot);
         if angle <= 0.0 {
             return 0.0;
         }
-        // A vertex of the walk may lie an ulp outside.
+        // A vertex of the walk may lie outside by an ulp.
         let from_foot = start + (t.clamp(self.near, self.far) - self.near);
         height / (angle * (height * height + from_foot * from_foot))
     }
 }
 
-/// How a path has come to its last vertex.
+/// Approach of a path to its last vertex.
 #[derive(Clone, Copy, Debug)]
 pub enum Reached {
-    /// Along a passage, to this distance: the vertex might have been drawn by angle.
+    /// Along a passage, to this distance: equiangular sampling could have drawn the vertex.
     Through(Passage, f32),
-    /// In a way that no vertex by angle has: it lies on a surface, or there is none yet.
+    /// Without a passage: the vertex lies on a surface, or there is none yet. Equiangular sampling could not
+    /// have drawn it.
     Otherwise,
 }
 
 impl Reached {
-    /// A vertex in the medium.
+    /// Approach to a vertex in the medium.
     #[must_use]
     pub fn through(passage: Option<Passage>, vertex: Vec3) -> Self {
         passage.map_or(Self::Otherwise, |p| Self::Through(p, (vertex - p.ray.origin).dot(p.ray.direction)))
     }
 
-    /// What the densities of techniques have that depends on the light, for a direction from the vertex that light
+    /// Light-dependent factors of the techniques' densities, for a direction from the vertex that light
     /// sampling draws with density `nee`.
     #[must_use]
     pub fn light_densities<L: LocalMedium<N>, C: Components<N>, const N: usize>(
@@ -126,7 +129,7 @@ mod tests {
         Passage { ray: Ray { origin: Vec3::new(1.0, 2.0, 3.0), direction: Vec3::Y }, near, far }
     }
 
-    /// ∫ p from where the passage begins to t is the number that t was drawn by.
+    /// The integral of p from the start of the passage to t equals the random number of t.
     #[test]
     fn distances_are_drawn_by_their_density() {
         for (name, pivot, near, far) in [
@@ -141,7 +144,7 @@ mod tests {
                 let u = (f32::from(i) + 0.5) / 20.0;
                 let (t, density) = passage.sample(pivot, u);
                 assert!((near..=far).contains(&t) && density > 0.0, "{name}: {t}, {density}");
-                // The density near a pivot on the ray has a peak of this width.
+                // Near a pivot on the ray the density has a peak, which these steps resolve.
                 let steps = 200_000u32;
                 let width = f64::from(t - near) / f64::from(steps);
                 let middle = |k: u32| f64::from(near) + (f64::from(k) + 0.5) * width;

@@ -1,4 +1,4 @@
-//! What happens at a tentative collision.
+//! Events at a tentative collision and their densities.
 //!
 //! The density of each event per component, with k = μ̄ / (μt + |μn|):
 //!
@@ -8,18 +8,21 @@
 //! | scattering | μs k | μt k |
 //! | absorption | μa k | never drawn |
 //!
-//! Where the majorant bounds the extinction, k = 1 and they are the coefficients themselves. Where it
-//! does not, μn is negative and k keeps the densities a partition of μ̄: together they are μ̄ always.
+//! Where the majorant bounds the extinction, k = 1 and the densities are the coefficients themselves. Where
+//! it does not, μn is negative, and the factor k makes the densities sum to μ̄ again.
 //!
-//! *Weighted delta tracking* makes real collisions more likely by κ = √(μ̄ / μt), at the cost of null ones: μs κ (or
-//! μt κ), μa κ and μ̄ − μt κ. *Decomposition tracking* splits the extinction into a control μc, known without a look-up,
-//! and the rest; a collision belongs to the control with density μc, and is real then, or to the rest with density
-//! μ̄ − μc, for which the table holds with μt − μc in place of μt. A path is one of a larger space, in which every
-//! collision is of one kind or the other; f and all densities are those of its kind, so that heuristics hold as before.
-//! Null collisions are all the rest's, with density μ̄ − μt where the majorant bounds: the same as without a control, so
-//! that connections, which are not split, agree with the walk. Where the majorant may be exceeded they would not (k of
-//! the rest differs from that of the whole), and the rest could be left with no density at all where its f is not zero:
-//! there is no control on such a segment, and the table holds for the whole medium.
+//! *Weighted delta tracking* makes real collisions more likely by κ = √(μ̄ / μt), at the cost of null
+//! collisions: the densities are μs κ (or μt κ), μa κ and μ̄ − μt κ.
+//!
+//! *Decomposition tracking* splits the extinction into a control μc, known without a look-up, and the
+//! residual. A collision belongs to the control with density μc, and is then real, or to the residual with
+//! density μ̄ − μc, for which the table holds with μt − μc in place of μt. The path space is extended by a
+//! label of every collision, control or residual; f and all densities are those of the label, so that the
+//! heuristics hold as before. All null collisions belong to the residual, with density μ̄ − μt where the
+//! majorant bounds the extinction. This is the same density as without a control, so that connections, which
+//! are not split, agree with the walk. Where the majorant may be exceeded they would not agree (k of the
+//! residual differs from that of the whole), and the residual could have density zero where its f is not
+//! zero. Such a segment therefore has no control, and the table holds for the whole medium.
 
 use super::{CollisionRecord, Note, PathSettings, Trace};
 use crate::medium::Coefficients;
@@ -27,10 +30,10 @@ use crate::scene::{Absorption, DistanceSampling};
 use crate::spectrum::Sampled;
 use glam::Vec3;
 
-/// The outcome of a collision.
+/// Outcome of a collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Nothing: the path goes straight on.
+    /// The path continues in the same direction.
     Null,
     /// The path changes direction.
     Scattering,
@@ -38,12 +41,12 @@ pub enum Event {
     Absorption,
 }
 
-/// How events are drawn.
+/// Rule by which events are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EventRule {
-    /// What happens at a collision that may absorb.
+    /// Treatment of absorption at a collision.
     pub absorption: Absorption,
-    /// What makes a collision real.
+    /// Rule by which a collision is real or null.
     pub distances: DistanceSampling,
 }
 
@@ -62,24 +65,24 @@ impl From<&PathSettings> for EventRule {
 /// A tentative collision of the walk, drawn with density μ̄ e^(−μ̄ t) of the hero.
 #[derive(Clone, Copy, Debug)]
 pub struct Collision<const N: usize> {
-    /// Where, in world space.
+    /// Position in world space.
     pub point: Vec3,
-    /// μa, μs, μn, μ̄ there; of a part of the medium only, where that is taken as two.
+    /// μa, μs, μn, μ̄ at the point; of one part of the medium under decomposition tracking.
     pub coefficients: Coefficients<N>,
-    /// Density of a tentative collision with this part of the medium: μ̄ of all of it.
+    /// Density of a tentative collision with this part of the medium: μ̄ for the whole medium.
     pub tentative: Sampled<N>,
-    /// Density of taking it as null, per component.
+    /// Density of a null collision, per component.
     pub null_density: Sampled<N>,
-    /// Density of taking it as scattering, per component.
+    /// Density of scattering, per component.
     pub scattering_density: Sampled<N>,
-    /// Density of taking it as absorption, for the hero.
+    /// Density of absorption, for the hero.
     absorption_density: f32,
     /// Whether the majorant bounds the extinction here, at every component.
     pub bounds: bool,
 }
 
 impl<const N: usize> Collision<N> {
-    /// Prepares the event densities of a collision.
+    /// Computes the event densities of a collision.
     #[must_use]
     #[inline]
     pub fn new(point: Vec3, coefficients: Coefficients<N>, rule: EventRule) -> Self {
@@ -91,7 +94,7 @@ impl<const N: usize> Collision<N> {
         collision
     }
 
-    /// A collision with the control, of extinction μc: it is real.
+    /// Creates a collision with the control, of extinction μc; it is real.
     #[must_use]
     pub fn with_control(
         point: Vec3,
@@ -111,7 +114,7 @@ impl<const N: usize> Collision<N> {
         Self::with_part(point, part, control, true, absorption)
     }
 
-    /// A collision with what the control leaves of a medium.
+    /// Creates a collision with the residual of the medium beside the control.
     #[must_use]
     pub fn with_rest(
         point: Vec3,
@@ -120,7 +123,7 @@ impl<const N: usize> Collision<N> {
         albedo: Sampled<N>,
         absorption: Absorption,
     ) -> Self {
-        // The control is a lower bound, but for rounding.
+        // The control is a lower bound of the extinction, except for rounding.
         let less = |all: Sampled<N>, part: Sampled<N>| all.zip(part, |all, part| (all - part).max(0.0));
         let rest = Coefficients {
             absorption: less(all.absorption, control - control * albedo),
@@ -154,7 +157,8 @@ impl<const N: usize> Collision<N> {
         Self { point, coefficients, tentative, null_density, scattering_density, absorption_density, bounds }
     }
 
-    /// Multiplies the densities of real events by κ = √(μ̄ / μt), which leaves μ̄ − √(μ̄ μt) to null ones.
+    /// Multiplies the densities of real events by κ = √(μ̄ / μt), which leaves μ̄ − √(μ̄ μt) to null
+    /// collisions.
     fn make_real_more_likely(&mut self) {
         let extinction = self.coefficients.extinction();
         let kappa = self.tentative.zip(extinction, |m, t| if t > 0.0 { (m / t).sqrt() } else { 1.0 });
@@ -163,8 +167,8 @@ impl<const N: usize> Collision<N> {
         self.null_density = self.tentative.zip(extinction, |m, t| (m - (m * t).sqrt()).max(0.0));
     }
 
-    /// Draws whether the collision is real, by μt / μ̄ of the hero (the report's algorithm 3): where the majorant is
-    /// exceeded it always is.
+    /// Draws whether the collision is real, with probability μt / μ̄ of the hero (the report's algorithm 3).
+    /// Where the extinction exceeds the majorant it always is.
     pub fn draw_real(&self, trace: &mut Trace<'_>) -> Event {
         let (c, u) = (&self.coefficients, trace.sampler.event());
         let real = u * c.majorant.hero() < c.extinction().hero();
@@ -179,7 +183,7 @@ impl<const N: usize> Collision<N> {
         self.draw_event_by(u, trace)
     }
 
-    /// As [`Self::draw_event`], by a number of the connection at hand: for a walk beside the path's own.
+    /// As [`Self::draw_event`], with a random number of the side stream: for a walk beside the path's own.
     pub fn draw_event_beside(&self, trace: &mut Trace<'_>) -> Event {
         let u = trace.connection.next_1d();
         self.draw_event_by(u, trace)
@@ -192,13 +196,14 @@ impl<const N: usize> Collision<N> {
         event
     }
 
-    /// The event at a number from 0 to the hero's tentative density: absorption, scattering and null share that range in
-    /// this order, by their densities.
+    /// Selects the event at a number from 0 to the hero's tentative density. Absorption, scattering and null
+    /// divide that range, in this order, by their densities.
     #[must_use]
     #[inline]
     pub fn event_at(&self, u: f32) -> Event {
         let (null, scattering) = (self.null_density.hero(), self.scattering_density.hero());
-        // The three densities add up to the tentative one. An event of density zero is never drawn, even by rounding.
+        // The three densities sum to the tentative density. An event of density zero is never selected, even
+        // with rounding.
         if u < self.absorption_density {
             Event::Absorption
         } else if u < self.absorption_density + scattering {
@@ -214,7 +219,7 @@ impl<const N: usize> Collision<N> {
 }
 
 impl<const N: usize> Collision<N> {
-    /// As it is told, `passed` by the majorants.
+    /// Record of the collision for an observer, after the majorant optical depth `passed`.
     pub(super) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
         let c = &self.coefficients;
         CollisionRecord {
@@ -231,7 +236,7 @@ impl<const N: usize> Collision<N> {
     }
 }
 
-/// Whether the majorant bounds the extinction, at every component.
+/// Whether the majorant bounds the extinction at every component.
 #[inline(always)]
 fn is_bound<const N: usize>(c: &Coefficients<N>) -> bool {
     c.extinction().zip(c.majorant, |t, m| if t > m { 1.0 } else { 0.0 }).is_zero()

@@ -1,26 +1,26 @@
-//! Events that are drawn for all components at once, as spectral tracking does.
+//! Event sampling for all components at once, as in spectral tracking.
 
 use super::{Collision, Event, Note, PathSettings, Trace};
 use crate::scene::{Absorption, Tracking};
 use crate::spectrum::Sampled;
 
-/// What the event at a collision is drawn in proportion to.
+/// Densities to which the event probabilities at a collision are proportional.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EventDensities {
-    /// Going straight on.
+    /// Null collision.
     pub null: f32,
-    /// Changing direction.
+    /// Scattering.
     pub scattering: f32,
-    /// Ending.
+    /// Absorption.
     pub absorption: f32,
-    /// μ̄, the same for all components.
+    /// Majorant μ̄, the same for all components.
     majorant: f32,
 }
 
 impl EventDensities {
-    /// The densities of a collision on a path of these weights, by the policies of Kutz et al. 2017, equations 22–25.
-    /// History that sees no way on (every event leaves the path dark) falls back on the average, so that the
-    /// densities are never all zero.
+    /// Computes the densities of a collision on a path with these weights, by the policies of Kutz et al.
+    /// 2017, equations 22–25. Where every event would leave the path with zero weight, the history policy
+    /// falls back on the average, so that the densities are never all zero.
     #[must_use]
     #[inline]
     pub fn of<const N: usize>(c: &Collision<N>, weights: &Sampled<N>, settings: &PathSettings) -> Self {
@@ -57,7 +57,7 @@ impl EventDensities {
         }
     }
 
-    /// Their sum.
+    /// Sum of the densities.
     #[must_use]
     pub fn total(&self) -> f32 {
         self.null + self.scattering + self.absorption
@@ -80,7 +80,8 @@ impl EventDensities {
         event
     }
 
-    /// The event at a number between 0 and [`Self::total`]. One of density zero is never drawn, even by rounding.
+    /// Selects the event at a number between 0 and [`Self::total`]. An event of density zero is never
+    /// selected, even with rounding.
     fn event_at(&self, u: f32) -> Event {
         if u < self.null {
             Event::Null
@@ -95,7 +96,7 @@ impl EventDensities {
         }
     }
 
-    /// The density with which an event was drawn: μ̄ times its probability.
+    /// Density with which an event was drawn: μ̄ times its probability.
     #[must_use]
     pub fn drawn(&self, event: f32) -> f32 {
         self.majorant * event / self.total()
@@ -106,7 +107,7 @@ impl EventDensities {
 mod tests {
     use super::*;
 
-    /// Rounding may lift the number to the sum of the densities, whichever of them are zero.
+    /// Rounding may lift the number to the sum of the densities, with any of them zero.
     #[test]
     fn an_event_of_density_zero_is_never_drawn() {
         for mask in 1..8u8 {

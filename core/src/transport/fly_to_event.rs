@@ -1,4 +1,4 @@
-//! The flight to the next event: the loop that every estimator of the null-scattering path integral shares.
+//! Flight to the next event: the loop shared by the estimators of the null-scattering path integral.
 
 use super::{Collision, Event, Technique, Trace, WalkWeights, World};
 use crate::math::Ray;
@@ -6,19 +6,19 @@ use crate::medium::LocalMedium;
 use crate::spectrum::Components;
 use glam::Vec3;
 
-/// How a flight ends.
+/// End of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FlightEnd {
     /// The path scatters in the medium, at this point in world space.
     Scattering(Vec3),
     /// The path is absorbed.
     Absorption,
-    /// The path leaves the medium, or reaches what ends the ray.
+    /// The path leaves the medium, or reaches the end of the ray.
     Exit,
 }
 
-/// Draws the event at a collision from the hero's densities, and multiplies null and scattering events into the weights.
-/// Absorption ends the path and leaves them as they are.
+/// Draws the event at a collision from the hero's densities and multiplies null and scattering events into
+/// the weights. Absorption ends the path and leaves the weights unchanged.
 #[inline(always)]
 pub fn hero_event<W: WalkWeights<N>, const N: usize>(
     path: &mut W,
@@ -35,11 +35,12 @@ pub fn hero_event<W: WalkWeights<N>, const N: usize>(
 }
 
 impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
-    /// Flies along a ray from tentative collision to tentative collision until an event is not null, or until `t_max`.
+    /// Flies along a ray from tentative collision to tentative collision until an event is not null, or until
+    /// `t_max`.
     ///
-    /// At every collision the medium's emission is added to `radiance` by `value_of_emission` (weights before the event,
-    /// emitted radiance, collision), then `draw_event` draws what happens and multiplies it into the weights: those of
-    /// hero-driven estimators by [`hero_event`].
+    /// At every collision the emission of the medium, weighted by `value_of_emission` (weights before the
+    /// event, emitted radiance, collision), is added to `radiance`. Then `draw_event` draws the event and
+    /// multiplies it into the weights; hero-driven estimators pass [`hero_event`].
     #[inline(always)]
     pub fn fly_to_event<W: WalkWeights<N>>(
         &self,

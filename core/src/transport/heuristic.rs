@@ -1,16 +1,17 @@
-//! How a path is shared among all that could have made it: heuristics of multiple importance sampling.
+//! Heuristics of multiple importance sampling, over techniques and over heroes.
 
 use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::Sampled;
 
-/// Densities that differ by no more than this are the same to the maximum heuristic: rounding must not decide
-/// between equals, or different heroes would decide differently.
+/// Relative difference up to which the maximum heuristic treats densities as equal. Rounding must not decide
+/// between equal densities, or different heroes would decide differently.
 const TIE: f32 = 1e-4;
 
-/// The weight of the strategy whose density is `own` among those with densities `all`, itself included: over
-/// all strategies the weights sum to one (Veach 1997, equations 9.10–9.13). Densities may share any unit.
+/// Weight of the strategy whose density is `own` among strategies with densities `all`, itself included. The
+/// weights of all strategies sum to one (Veach 1997, equations 9.10–9.13). Densities may share any unit.
 ///
-/// [`Heuristic::HeroOnly`] has no weight; whoever combines nothing must not ask.
+/// [`Heuristic::HeroOnly`] combines nothing and has no weight: for components it must not be passed here. For
+/// techniques it is taken as the balance heuristic.
 #[must_use]
 #[inline]
 pub fn share(heuristic: Heuristic, own: f32, all: impl Iterator<Item = f32> + Clone) -> f32 {
@@ -18,7 +19,7 @@ pub fn share(heuristic: Heuristic, own: f32, all: impl Iterator<Item = f32> + Cl
     if largest <= 0.0 || own <= 0.0 {
         return 0.0;
     }
-    // In units of the largest, nothing overflows.
+    // In units of the largest density nothing overflows.
     let relative = |density: f32| density / largest;
     match heuristic {
         Heuristic::Balance | Heuristic::HeroOnly => relative(own) / all.map(relative).sum::<f32>(),
@@ -30,14 +31,15 @@ pub fn share(heuristic: Heuristic, own: f32, all: impl Iterator<Item = f32> + Cl
     }
 }
 
-/// Shares a path of worth f / P between techniques with densities p / P, of which the first made it, then among the
-/// heroes of that one. With p_t = mean_i p_t,i and heuristics h the weight is
+/// Weights a path of contribution f / P by the heuristic over techniques with densities p / P, the first of
+/// which made the path, then over the heroes of that technique. With p_t = mean_i p_t,i and heuristics h the
+/// weight is
 ///
 /// ```text
 ///   w_t,i = h(p_t among techniques) · h(p_t,i among components)
 /// ```
 ///
-/// which sums to one over both, and is p_t,i over the sum of all where h is the balance heuristic.
+/// It sums to one over both, and is p_t,i over the sum of all where h is the balance heuristic.
 #[must_use]
 #[inline]
 pub fn among_all<const N: usize, const T: usize>(
@@ -50,7 +52,7 @@ pub fn among_all<const N: usize, const T: usize>(
         return contribution * (1.0 / all.mean());
     }
     let density = |p: Sampled<N>| match heuristics.components {
-        // Without a family of heroes each component has its own techniques.
+        // With the hero only, each component has techniques of its own.
         Heuristic::HeroOnly => p.hero(),
         _ => p.mean(),
     };
@@ -59,8 +61,8 @@ pub fn among_all<const N: usize, const T: usize>(
     among_heroes(contribution, made, of_technique, heuristics.components)
 }
 
-/// f / P times the weight of the hero among the components that could have been it, with densities p / P; `weight` is
-/// what is shared. In place of each of the N heroes a path is made one time in N.
+/// f / P times the weight of the hero among the components that could have been the hero, with densities p /
+/// P. `weight` is the weight of the technique. The factor N accounts for one hero in N being chosen per path.
 #[must_use]
 #[inline]
 pub fn among_heroes<const N: usize>(

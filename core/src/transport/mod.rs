@@ -1,7 +1,7 @@
-//! Shared algebra of the estimators, on the null-scattering path integral of Miller, Georgiev and
+//! Algebra shared by the estimators, on the null-scattering path integral of Miller, Georgiev and
 //! Jarosz 2019: the walk through majorant segments, event probabilities, path weights, connections.
 //!
-//! Each has this one home; an estimator's file puts them together and holds the whole path loop.
+//! Each of these is defined here once; an estimator's file combines them and contains the whole path loop.
 
 mod bookkeeping;
 mod cancel_token;

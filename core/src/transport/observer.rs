@@ -1,8 +1,8 @@
-//! What a path tells of itself while it is traced.
+//! Observation of a path while it is traced.
 //!
-//! A [`Trace`](super::Trace) may carry an [`Observer`]. The same kernel then traces the same path with the same random
-//! numbers, and tells every step as a [`Note`]; without one a step costs a test of an empty option. Paths are
-//! replayed, taken apart by technique, and explained through this alone.
+//! A [`Trace`](super::Trace) may have an [`Observer`]. The same kernel then traces the same path with the
+//! same random numbers and reports every step as a [`Note`]; without an observer a step costs a test of an
+//! empty option. Replay of paths, contributions by technique, and explanations of paths are all built on it.
 
 use super::{CancelToken, Event};
 use crate::math::Ray;
@@ -10,24 +10,24 @@ use crate::spectrum::{Carried, Lanes, Sampled};
 use glam::{Vec2, Vec3};
 use std::fmt;
 
-/// What has made a path that carries light.
+/// Sampling technique of a contribution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Technique {
-    /// The walk, which has met a light.
+    /// The walk, which has reached a light.
     Walk,
     /// A connection from a vertex to a light.
     Connection,
-    /// A vertex drawn by the angle under which a light sees it, and its connection.
+    /// A vertex drawn by equiangular sampling, and its connection.
     Equiangular,
-    /// The walk, which has collided where the medium glows.
+    /// The walk, which has collided where the medium emits.
     Emission,
 }
 
 impl Technique {
-    /// All, in the order of tables.
+    /// All techniques, in the order of tables.
     pub const ALL: [Self; 4] = [Self::Walk, Self::Connection, Self::Equiangular, Self::Emission];
 
-    /// Name for people.
+    /// Display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -39,40 +39,40 @@ impl Technique {
     }
 }
 
-/// A tentative collision, as it was found.
+/// Record of a tentative collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CollisionRecord {
-    /// Where, in world space.
+    /// Position in world space.
     pub point: Vec3,
-    /// Optical depth by the majorants since the last note of the walk, per component.
+    /// Majorant optical depth since the last note of the walk, per component.
     pub passed: Lanes,
-    /// μa there.
+    /// Absorption coefficient μa.
     pub absorption: Lanes,
-    /// μs there.
+    /// Scattering coefficient μs.
     pub scattering: Lanes,
-    /// μn there, negative where the majorant is exceeded.
+    /// Null coefficient μn, negative where the majorant is exceeded.
     pub null: Lanes,
-    /// μ̄ there.
+    /// Majorant μ̄.
     pub majorant: Lanes,
-    /// Density of a tentative collision with this part of the medium: μ̄ of all of it.
+    /// Density of a tentative collision with this part of the medium: μ̄ for the whole medium.
     pub tentative: Lanes,
-    /// Density of taking it as null.
+    /// Density of a null collision.
     pub null_density: Lanes,
-    /// Density of taking it as scattering.
+    /// Density of scattering.
     pub scattering_density: Lanes,
 }
 
-/// The three numbers per component that an estimator keeps of a path, under the names that it has for them.
+/// Path weights in an estimator's own form: three numbers per component, with their names.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeightRecord {
-    /// For instance `f/P`, `p_uni/P`, `p_nee/P`.
+    /// Names of the numbers, for instance `f/P`, `p_uni/P`, `p_nee/P`.
     pub names: [&'static str; 3],
-    /// Their values.
+    /// Values of the numbers.
     pub values: [Lanes; 3],
 }
 
 impl WeightRecord {
-    /// Of an estimator that keeps one number: throughput over density.
+    /// Record of an estimator that keeps one number: throughput over density.
     #[must_use]
     pub fn throughput<const N: usize>(phi: Sampled<N>) -> Self {
         Self { names: ["φ", "", ""], values: [phi.lanes(), [0.0; 4], [0.0; 4]] }
@@ -82,141 +82,141 @@ impl WeightRecord {
 /// One step of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Note {
-    /// It leaves the camera.
+    /// The path leaves the camera.
     Camera {
-        /// Into the scene.
+        /// Camera ray.
         ray: Ray,
-        /// The random numbers of the place within the pixel.
+        /// Random numbers of the position within the pixel.
         jitter: Vec2,
-        /// The random number of the components.
+        /// Random number of the components.
         u: f32,
-        /// What the components are.
+        /// Meaning of the components.
         carried: Carried,
     },
-    /// A walk, or a connection, has found a tentative collision; what is kept is that before its outcome.
+    /// A walk or a connection has found a tentative collision; the weights are those before its outcome.
     Collision(CollisionRecord, WeightRecord),
-    /// A walk, or a connection, has left the medium after this optical depth.
+    /// A walk or a connection has left the medium.
     Exit {
-        /// By the majorants, per component.
+        /// Majorant optical depth since the last note, per component.
         passed: Lanes,
-        /// What is kept of the path after it.
+        /// Path weights at the exit.
         kept: WeightRecord,
     },
-    /// What is kept of the path after the last event of the walk or connection at hand, where the event could not tell
-    /// it itself.
+    /// Path weights after the last event of the current walk or connection, where the note of the event does
+    /// not have them.
     Weights(WeightRecord),
-    /// What a walk has drawn at its last collision.
+    /// A walk has drawn the event at its last collision.
     Drawn {
         /// The outcome.
         event: Event,
-        /// The random number of it.
+        /// Random number.
         u: f32,
     },
-    /// The density by which f and the densities were divided, where events are drawn for all components at once.
+    /// An event has been drawn for all components at once.
     DrawnForAll {
         /// The outcome.
         event: Event,
-        /// The random number, between 0 and 1.
+        /// Random number, between 0 and 1.
         u: f32,
-        /// The density of the outcome.
+        /// Density of the outcome, by which f and the densities were divided.
         density: f32,
     },
-    /// A flight of which only its weight is known: what is left of the path's worth, over its density.
+    /// A free flight of which only the weight is known: contribution over density.
     Flight {
-        /// Where it scatters, if it does.
+        /// Scattering position; `None` if the flight leaves the medium.
         scattered_at: Option<Vec3>,
-        /// By what the path is multiplied.
+        /// Factor of the path's weight.
         weight: Lanes,
     },
     /// The path is reflected by a surface.
     Surface {
-        /// Where.
+        /// Position.
         point: Vec3,
-        /// Its albedo.
+        /// Albedo of the surface.
         albedo: Lanes,
     },
-    /// The path has its next real vertex, and is worth this.
+    /// The path has reached its next real vertex, with these weights.
     Vertex(WeightRecord),
-    /// It survives roulette with probability `q`, or ends.
+    /// Russian roulette: the path survives with probability `q`, or ends.
     Roulette {
-        /// The random number.
+        /// Random number.
         u: f32,
-        /// The probability.
+        /// Survival probability.
         q: f32,
     },
-    /// It leaves its vertex in a new direction.
+    /// The path leaves its vertex in a new direction.
     Leave {
-        /// From the vertex.
+        /// Ray from the vertex.
         ray: Ray,
-        /// The random numbers.
+        /// Random numbers.
         u: Vec2,
         /// Phase function or cosine lobe.
         value: f32,
-        /// The density of the direction, per steradian.
+        /// Density of the direction, per steradian.
         density: f32,
     },
-    /// A connection sets out from the last vertex, or from a vertex drawn by angle.
+    /// A connection starts at the last vertex, or at a vertex drawn by equiangular sampling.
     Connect {
-        /// From the vertex.
+        /// Ray from the vertex.
         ray: Ray,
-        /// To the light.
+        /// Distance to the light.
         distance: f32,
         /// Phase function or cosine lobe.
         value: f32,
-        /// The density with which the walk would have gone there.
+        /// Density with which the walk would have drawn the direction.
         walk_density: f32,
-        /// The density with which the light was sampled.
+        /// Density with which the light was sampled.
         light_density: f32,
-        /// Which light.
+        /// Index of the light.
         light: usize,
     },
-    /// A transmittance that was estimated by something without a density.
+    /// The transmittance has been estimated by an estimator without a path density.
     Transmittance {
-        /// The estimate.
+        /// Estimated transmittance.
         estimate: Lanes,
     },
-    /// A connection has ended, at its light or in the dark.
+    /// A connection has ended, with or without a contribution.
     Connected {
-        /// Whether anything has arrived.
+        /// Whether the contribution is not zero.
         arrives: bool,
     },
-    /// A walk of its own sets out along the path's ray, to meet light for it.
+    /// A separate walk to find lights starts along the path's ray.
     LightWalk,
-    /// That has ended.
+    /// The separate walk has ended.
     LightWalkEnds,
-    /// A vertex is being drawn by angle along the path's ray.
+    /// A vertex is being drawn by equiangular sampling along the path's ray.
     EquiangularVertex,
-    /// That vertex and its connection have ended.
+    /// The equiangular vertex and its connection have ended.
     EquiangularVertexEnds,
-    /// Light is added to the estimate.
+    /// A contribution is added to the estimate.
     Credit {
-        /// By what it was found.
+        /// Technique that made the path.
         technique: Technique,
-        /// Emitted radiance; on grey paths in the colours of the film.
+        /// Emitted radiance; on grey paths in linear sRGB of the film.
         emitted: Lanes,
-        /// The density with which the other technique would have sampled the light; zero if there is none.
+        /// Density with which the other technique would have sampled the light; zero if there is none.
         other_density: f32,
-        /// What is added, component by component, in the same space.
+        /// The contribution, per component, in the same space.
         value: Lanes,
-        /// The same as linear sRGB on the film.
+        /// The contribution as linear sRGB on the film.
         film: Vec3,
     },
-    /// The path has ended: its estimate, as the film receives it.
+    /// The path has ended, with this estimate.
     End {
-        /// The sum of all that was added, in the order in which it was.
+        /// Sum of all contributions, in the order in which they were added.
         sum: Lanes,
-        /// Linear sRGB.
+        /// The estimate as linear sRGB on the film.
         film: Vec3,
     },
 }
 
-/// Somebody who looks on while a path is traced.
+/// Observer of a path while it is traced.
 pub trait Observer {
-    /// Takes note of a step.
+    /// Receives a step of the path.
     fn note(&mut self, note: &Note);
 }
 
-/// Who accompanies a path: somebody who may call it off, and perhaps somebody who looks on.
+/// Cancellation token and optional observer of one path.
 pub struct PathContext<'a> {
     pub(super) cancel: CancelToken<'a>,
     pub(super) observer: Option<&'a mut dyn Observer>,
@@ -229,13 +229,13 @@ impl fmt::Debug for PathContext<'_> {
 }
 
 impl<'a> PathContext<'a> {
-    /// A path that is observed.
+    /// Creates the context of an observed path.
     pub fn observed(cancel: CancelToken<'a>, observer: &'a mut dyn Observer) -> Self {
         Self { cancel, observer: Some(observer) }
     }
 
-    /// Tells a step, if anybody looks on. What the closure knows should be moved into it: what is borrowed has to lie in
-    /// memory, also where nobody looks on.
+    /// Reports a step to the observer, if there is one. Move the captured values into the closure: borrowed
+    /// values have to be kept in memory, even without an observer.
     #[inline(always)]
     pub(super) fn tell(&mut self, note: impl FnOnce() -> Note) {
         if let Some(observer) = &mut self.observer {
@@ -244,7 +244,7 @@ impl<'a> PathContext<'a> {
     }
 }
 
-/// Apart from the path, so that it does not stand in the way of those that nobody observes.
+/// Kept out of line, so that paths without an observer do not pay for it.
 #[cold]
 #[inline(never)]
 fn told(observer: &mut dyn Observer, note: impl FnOnce() -> Note) {

@@ -8,24 +8,24 @@ use glam::Vec3;
 pub enum Vertex {
     /// In the medium.
     Medium {
-        /// Where.
+        /// Position.
         point: Vec3,
-        /// Direction of propagation that arrived.
+        /// Incident direction of propagation.
         omega_in: Vec3,
-        /// What is scattered towards the lights, if directions are drawn by it.
+        /// Parts of the phase function towards the lights, if directions are drawn from them.
         parts: Option<LobeParts>,
     },
     /// On a diffuse surface.
     Surface {
-        /// Just above the surface, on the side that the path came from.
+        /// Position just above the surface, on the side from which the path arrived.
         point: Vec3,
-        /// Unit normal of that side.
+        /// Unit normal on that side.
         normal: Vec3,
     },
 }
 
 impl Vertex {
-    /// Where it is.
+    /// Position of the vertex.
     #[must_use]
     pub fn point(&self) -> Vec3 {
         match self {

@@ -1,7 +1,7 @@
 //! Free flight through majorant segments.
 //!
-//! An optical depth with density e^(−τ) is drawn once per collision and spent segment by segment, so
-//! that a ray may cross any number of segments at the price of one logarithm.
+//! One optical depth with density e^(−τ) is drawn per collision and consumed segment by segment, so
+//! that a ray may cross any number of segments at the cost of one logarithm.
 
 use super::{Collision, EventRule, Note, Trace, WalkWeights};
 use crate::math::{BoxRay, Ray};
@@ -15,15 +15,15 @@ pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
     medium: &'m L,
     violations: &'m Violations,
     rule: EventRule,
-    /// Whether it looks for the path's next vertex, by the path's random numbers, or runs beside it, by those of the
-    /// connection at hand.
+    /// Whether the walk searches for the path's next vertex, with the path's random numbers, or runs beside
+    /// the path, with those of the side stream.
     to_vertex: bool,
-    /// What is left of the way; `None` where the ray misses the medium, or has left it.
+    /// Remainder of the traversal; `None` if the ray misses the medium, or has left it.
     way: Option<Way<'m, L, N>>,
 }
 
 struct Way<'m, L: LocalMedium<N> + 'm, const N: usize> {
-    /// From where the ray enters the medium, as is everything that counts `t`.
+    /// Ray from its entry into the medium, from which every `t` is measured.
     in_world: Ray,
     in_medium: BoxRay,
     segments: L::Segments<'m>,
@@ -32,14 +32,15 @@ struct Way<'m, L: LocalMedium<N> + 'm, const N: usize> {
 }
 
 impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
-    /// Starts at the ray's origin and ends where the ray leaves the medium, at `t_max` at the latest.
+    /// Starts a walk at the ray's origin; it ends where the ray leaves the medium, or at `t_max`.
     #[must_use]
     #[inline(always)]
     pub fn new(medium: &'m L, scene: &'m Scene, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
         Self::along(medium, scene, ray, t_max, rule.into(), true)
     }
 
-    /// As [`Self::new`]; says whether the walk looks for the path's next vertex, or connects two.
+    /// As [`Self::new`]; `to_vertex` is true for a walk to the path's next vertex, false for one beside the
+    /// path.
     #[must_use]
     #[inline(always)]
     pub fn along(
@@ -67,8 +68,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         }
     }
 
-    /// Flies to the next tentative collision and multiplies the way there into `weights`; `None` once
-    /// the walk has left the medium, or the path is not wanted any more.
+    /// Flies to the next tentative collision and multiplies the traversed stretch into `weights`; `None` once
+    /// the walk has left the medium, or the path has been cancelled.
     #[inline(always)]
     pub fn next_collision(
         &mut self,
@@ -125,25 +126,25 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
     }
 }
 
-/// Where a walk collides.
+/// Position of a collision on a walk.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'s, const N: usize> {
-    /// In world space.
+    /// Position in world space.
     pub point: Vec3,
-    /// In medium space.
+    /// Position in medium space.
     pub inside: Vec3,
-    /// With its majorant.
+    /// Segment with its majorant.
     pub segment: &'s MajorantSegment<N>,
 }
 
-/// Which part of the medium a walk collides with: a label of the path under decomposition tracking.
+/// Part of the medium that a walk collides with; under decomposition tracking a label of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part<const N: usize> {
-    /// All of it: no part has been drawn.
+    /// The whole medium, not split.
     Whole,
-    /// The control, of this extinction and albedo, known without a look-up.
+    /// The control, with its extinction and albedo, known without a look-up.
     Control(Sampled<N>, Sampled<N>),
-    /// What a control of this extinction and albedo leaves.
+    /// The residual beside a control with this extinction and albedo.
     Rest(Sampled<N>, Sampled<N>),
 }
 
@@ -154,8 +155,8 @@ impl<const N: usize> Part<N> {
 }
 
 impl<const N: usize> Place<'_, N> {
-    /// The control's extinction and albedo: none under other rules than decomposition tracking, and none where the
-    /// majorant may be exceeded: see the head of `event.rs`.
+    /// Extinction and albedo of the control; `None` under rules other than decomposition tracking, and where
+    /// the majorant may be exceeded (see the module docs of `event.rs`).
     #[must_use]
     #[inline(always)]
     pub fn control<L: LocalMedium<N>>(
@@ -167,7 +168,7 @@ impl<const N: usize> Place<'_, N> {
             return None;
         }
         let (control, albedo) = medium.control(self.inside)?;
-        // The control is a lower bound, but for rounding.
+        // The control is a lower bound of the extinction, except for rounding.
         Some((control.zip(self.segment.majorant, f32::min), albedo))
     }
 
@@ -183,8 +184,8 @@ impl<const N: usize> Place<'_, N> {
         }
     }
 
-    /// The collision with a part of the medium. Connections are not split: a collision that is taken as null counts
-    /// against all of the medium.
+    /// The collision with a part of the medium. Connections are not split: a null collision on a connection
+    /// has the coefficients of the whole medium.
     #[must_use]
     #[inline(always)]
     pub fn collide<L: LocalMedium<N>>(&self, medium: &L, rule: EventRule, part: Part<N>) -> Collision<N> {

@@ -1,17 +1,27 @@
 //! Path weights in rescaled form.
 //!
-//! A path has at every component i a contribution f_i, a density p_uni,i with which unidirectional
-//! sampling would have made it had i been the hero, and the same p_nee,i for next-event estimation.
-//! As products of hundreds of coefficients they overflow; their quotients by the density P with which
-//! the path *was* made do not (P is the hero's, of the technique that samples). Kept are
+//! At every component i a path has a contribution f_i, the density p_uni,i with which unidirectional
+//! sampling would have made it had i been the hero, and the corresponding density p_nee,i of next-event
+//! estimation. As products of hundreds of coefficients they overflow; their quotients by the density P with
+//! which the path *was* made do not. P is the hero's density for the technique that made the path. The
+//! weights stored are
 //!
 //! ```text
 //!   contribution_i = f_i / P      uni_i = p_uni,i / P      nee_i = p_nee,i / P
 //! ```
 //!
-//! so that an event costs O(N), and any heuristic can be formed at the end (Miller et al. 2019 eq. 26–30;
-//! the rescaling is that of pbrt-v4's `beta, r_u, r_l`). The value that a finished path adds with the
-//! balance heuristic is, over heroes as a one-sample family and techniques as a two-sample family,
+//! so that an event costs O(N), and any heuristic can be formed at the end (Miller et al. 2019 eq. 26–30).
+//!
+//! pbrt-v4 rescales in the same way. Its names, also common in the literature, correspond to these fields:
+//!
+//! | pbrt-v4 | here | |
+//! | --- | --- | --- |
+//! | `beta` | `contribution` | f / P |
+//! | `r_u` | `uni` | p_uni / P; its mean over the components is the denominator over all heroes |
+//! | `r_l` | `nee` | p_nee / P; on a walk without the light's density, which `combined` multiplies in |
+//!
+//! The balance heuristic treats the heroes as a one-sample family and the techniques as a two-sample
+//! family. The value that a finished path adds to the estimate is then
 //!
 //! ```text
 //!   Le_j · f_j / mean_i (p_uni,i + p_nee,i)
@@ -25,17 +35,17 @@ use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
-/// Contribution and densities of a path, divided by the density with which it was made.
+/// Contribution and densities of a path, divided by the density with which the path was made.
 #[derive(Clone, Copy, Debug)]
 pub struct PathWeights<const N: usize> {
     pub(super) contribution: Sampled<N>,
     uni: Sampled<N>,
     pub(super) nee: Sampled<N>,
-    /// Optical depth by the majorants beyond the hero's, which all three still have to be attenuated by.
+    /// Majorant optical depth beyond the hero's, by which all three weights still have to be attenuated.
     pending: Sampled<N>,
 }
 
-/// The most optical depth that waits: e^(±16) times what an event does to a weight stays within f32.
+/// Largest pending optical depth: e^(±16) times the factor of one event stays within the range of f32.
 const MOST_PENDING: f32 = 16.0;
 
 impl<const N: usize> WalkWeights<N> for PathWeights<N> {
@@ -159,7 +169,7 @@ impl<const N: usize> Weights<N> for PathWeights<N> {
 }
 
 impl<const N: usize> PathWeights<N> {
-    /// The same weights with nothing pending.
+    /// Returns the same weights with the pending attenuation applied.
     #[inline]
     fn settled(&self) -> Self {
         if N == 1 {
@@ -174,19 +184,21 @@ impl<const N: usize> PathWeights<N> {
         }
     }
 
-    /// A collision that was drawn as null with this density, whatever p_uni and p_nee would be.
+    /// Updates the contribution for a collision drawn as null with this density; `uni` and `nee` stay as they
+    /// are.
     #[inline]
     pub fn null_drawn(&mut self, c: &Collision<N>, density: f32) {
         self.contribution *= c.coefficients.null * (1.0 / density);
     }
 
-    /// A collision that was drawn as scattering with this density, whatever p_uni and p_nee would be.
+    /// Updates the contribution for a collision drawn as scattering with this density; `uni` and `nee` stay
+    /// as they are.
     #[inline]
     pub fn scatter_drawn(&mut self, c: &Collision<N>, density: f32) {
         self.contribution *= c.coefficients.scattering * (1.0 / density);
     }
 
-    /// f_i / P: what the path is worth so far at each component, by how it was drawn.
+    /// f_i / P: contribution at each component over the density with which the path was made.
     #[must_use]
     #[inline]
     pub fn contribution(&self) -> Sampled<N> {
@@ -201,26 +213,26 @@ impl<const N: usize> PathWeights<N> {
         self.nee *= c.coefficients.majorant * scale;
     }
 
-    /// The path's value if only the hero is carried at all: f₁ / p₁, and zero elsewhere.
+    /// Value of the path if only the hero is carried: f₁ / p₁, and zero at the other components.
     #[must_use]
     pub fn hero_only<R: Radiance<N>>(&self, radiance: R) -> R {
         radiance * self.hero(1.0)
     }
 
-    /// [`Self::hero_only`] of a path that ends at a collision, where the medium emits.
+    /// [`Self::hero_only`] of a path that ends at a collision where the medium emits.
     #[must_use]
     pub fn hero_emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
         radiance * self.hero(c.coefficients.absorption.hero() / c.tentative.hero())
     }
 
-    /// [`Self::as_drawn`] of a path that ends at a collision, where the medium emits.
+    /// [`Self::as_drawn`] of a path that ends at a collision where the medium emits.
     #[must_use]
     pub fn emitted_as_drawn<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>) -> R {
         let drawn = c.coefficients.absorption * (1.0 / c.tentative.hero());
         radiance * (self.settled().contribution * drawn)
     }
 
-    /// The path's value if nothing else could have made it: f_j / P.
+    /// Value of the path without multiple importance sampling: f_j / P.
     #[must_use]
     pub fn as_drawn<R: Radiance<N>>(&self, radiance: R) -> R {
         radiance * self.settled().contribution

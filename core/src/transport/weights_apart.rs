@@ -1,9 +1,12 @@
-//! Path weights as they are defined: f, p_uni and p_nee, each a product of its own.
+//! Path weights by their definition: f, p_uni and p_nee, each as a separate product.
 //!
-//! As the report prints them (algorithm 4) and warns of (section 5): in single precision some forty collisions of
-//! a dense medium leave the range of the numbers. Then 0/0 or ∞/∞ is what remains of the path; the film
-//! counts such samples, locates them and leaves them out, which biases what is left. Double precision lasts some eight
-//! times as long.
+//! This is the form of the report's algorithm 4, with the limitation stated in its section 5: in single
+//! precision some forty collisions in a dense medium leave the range of the numbers. The value of the path is
+//! then 0/0 or ∞/∞; the film counts such samples, locates them and leaves them out, which biases the
+//! remaining estimate. Double precision lasts some eight times as long.
+//!
+//! Nothing is divided by the density P of the technique that made the path. In terms of pbrt-v4's
+//! `beta`, `r_u` and `r_l`, the fields are `f` = `beta` P, `uni` = `r_u` P and `nee` = `r_l` P.
 
 use super::heuristic::share;
 use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
@@ -11,13 +14,13 @@ use crate::scene::{Heuristic, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 use std::ops::{AddAssign, Div, Mul, MulAssign};
 
-/// A number that products are kept in.
+/// Floating-point type of the products.
 pub trait Number:
     Copy + From<f32> + Mul<Output = Self> + MulAssign + AddAssign + Div<Output = Self> + PartialOrd
 {
     /// One.
     const ONE: Self;
-    /// Rounded to single precision.
+    /// Rounds to single precision.
     fn single(self) -> f32;
 }
 
@@ -41,7 +44,7 @@ pub struct WeightsApart<T, const N: usize> {
     f: [T; N],
     uni: [T; N],
     nee: [T; N],
-    /// Whether a coefficient was zero at every component; a product that only rounds to zero is not dark.
+    /// Whether a coefficient was zero at every component; a product that underflows does not count as zero.
     dark: bool,
 }
 
@@ -60,7 +63,7 @@ fn mean<T: Number, const N: usize>(values: [T; N]) -> T {
 }
 
 impl<T: Number, const N: usize> WeightsApart<T, N> {
-    /// f_j over a density, times a weight.
+    /// f_j divided by a density, times a weight.
     fn over(&self, density: T, weight: f32) -> Sampled<N> {
         Sampled(self.f.map(|f| (f / density).single() * weight))
     }
@@ -70,7 +73,7 @@ impl<T: Number, const N: usize> WeightsApart<T, N> {
         self.dark |= factors.is_zero();
     }
 
-    /// Shares the path among the heroes that could have made it with densities `p`.
+    /// Weights the path by the heuristic over the heroes that could have made it, with densities `p`.
     fn among_heroes(&self, p: [T; N], weight: f32, heuristic: Heuristic) -> Sampled<N> {
         match heuristic {
             Heuristic::Balance => self.over(mean(p), weight),

@@ -1,7 +1,7 @@
 //! Path weights with a third technique: equiangular connections.
 //!
-//! A path … x, y, light has three makers from its last but one vertex x on, which all have drawn the direction
-//! from x to y alike. With ∏ over the null collisions between x and y, and between y and the light:
+//! Three techniques can make a path … x, y, light from its last but one vertex x on. All three draw the
+//! direction from x to y alike. With ∏ over the null collisions between x and y, and between y and the light:
 //!
 //! ```text
 //!   unidirectional   p_uni = ∏ |μn| · scattering density · phase density · ∏ |μn|
@@ -9,33 +9,41 @@
 //!   equiangular      p_eq  = ∏  μ̄   · p(t | light)        · light density · ∏ μ̄
 //! ```
 //!
-//! all with the same e^(−∫ μ̄), so that their quotients hold as in [`super::PathWeights`]. Kept are f, p_uni, p_nee and
-//! p_eq over the density P with which the path was made, but for what depends on the light that it ends at.
+//! all with the same e^(−∫ μ̄), so that their quotients are maintained as in [`super::PathWeights`]. The
+//! weights stored are f, p_uni, p_nee and p_eq over the density P with which the path was made, without the
+//! factors that depend on the light at which it ends.
+//!
+//! `contribution`, `uni` and `nee` are pbrt-v4's `beta`, `r_u` and `r_l`; `eq` is the same quotient for the
+//! third technique, which pbrt-v4 does not have.
 
 use super::heuristic::{among_all, among_heroes};
 use super::{Collision, DirectionSample, WalkWeights, WeightRecord};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
-/// Contribution and three densities of a path, divided by the density with which it was made.
+/// Contribution and three densities of a path, divided by the density with which the path was made.
 #[derive(Clone, Copy, Debug)]
 pub struct EquiangularWeights<const N: usize> {
     contribution: Sampled<N>,
     uni: Sampled<N>,
     nee: Sampled<N>,
-    /// Of paths whose last vertex was drawn by angle: zero behind a surface.
+    /// p_eq of a path whose last vertex was drawn by equiangular sampling; zero after a surface.
     eq: Sampled<N>,
-    /// As `uni`, with every collision since the last vertex taken as null: what `eq` will be if the next one is drawn
-    /// by angle.
+    /// As `uni`, with every collision since the last vertex taken as null: the value of `eq` if equiangular
+    /// sampling draws the next vertex.
     ahead: Sampled<N>,
 }
 
-/// What the densities of techniques have besides, for one light.
+/// Factors of the techniques' densities that depend on the light.
 #[derive(Clone, Copy, Debug)]
 pub struct LightDensities {
-    /// Of the direction to the light at the last vertex, the choice of the light included; per steradian.
+    /// Density of the direction to the light at the last vertex, including the choice of the light; per
+    /// steradian.
     pub nee: f32,
-    /// Of the same direction, times that of the last vertex along its ray and of the light it was drawn for.
+    /// Density of the same direction without the choice of the light at the last vertex, times the density of
+    /// the last vertex along its ray and the probability of the light for which it was drawn. Where the
+    /// path's density P has the latter two factors already ([`EquiangularWeights::connect_by_angle`]), they
+    /// are left out.
     pub eq: f32,
 }
 
@@ -129,7 +137,8 @@ impl<const N: usize> EquiangularWeights<N> {
         self.ahead *= by_ratio;
     }
 
-    /// A vertex that was drawn by angle, with this density, at the end of a stretch whose collisions were taken as null.
+    /// Updates the weights for a vertex drawn by equiangular sampling with this density, at the end of a
+    /// stretch whose collisions were taken as null.
     pub fn scatter_by_angle(&mut self, c: &Collision<N>, density: f32) {
         let scale = 1.0 / density;
         self.contribution *= c.coefficients.scattering * scale;
@@ -137,7 +146,7 @@ impl<const N: usize> EquiangularWeights<N> {
         self.eq = self.ahead;
     }
 
-    /// A connection from a vertex of the path: P is p_nee of the hero from here on.
+    /// Weights of a connection from a vertex of the path; from here on P is p_nee of the hero.
     #[must_use]
     pub fn connect(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
         let drawn = 1.0 / light.nee;
@@ -150,8 +159,8 @@ impl<const N: usize> EquiangularWeights<N> {
         }
     }
 
-    /// A connection from a vertex that was drawn by angle; of the light's densities only what comes after that
-    /// vertex counts in `eq`. P is p_eq of the hero.
+    /// Weights of a connection from a vertex drawn by equiangular sampling, whose density P already includes;
+    /// P is p_eq of the hero.
     #[must_use]
     pub fn connect_by_angle(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
         let drawn = 1.0 / light.eq;
@@ -164,20 +173,21 @@ impl<const N: usize> EquiangularWeights<N> {
         }
     }
 
-    /// The value of a walk that has met a light; by the balance heuristics f_j / mean (p_uni + p_nee + p_eq).
+    /// Value of a walk that has reached a light; with the balance heuristics
+    /// f_j / mean (p_uni + p_nee + p_eq).
     #[must_use]
     pub fn combined<R: Radiance<N>>(&self, radiance: R, light: LightDensities, heuristics: Heuristics) -> R {
         let densities = [self.uni, self.nee * light.nee, self.eq * light.eq];
         radiance * among_all(self.contribution, densities, heuristics)
     }
 
-    /// The value of a connection from a vertex of the path.
+    /// Value of a connection from a vertex of the path.
     #[must_use]
     pub fn connected<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         radiance * among_all(self.contribution, [self.nee, self.uni, self.eq], heuristics)
     }
 
-    /// The value of a connection from a vertex that was drawn by angle.
+    /// Value of a connection from a vertex drawn by equiangular sampling.
     #[must_use]
     pub fn connected_by_angle<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         radiance * among_all(self.contribution, [self.eq, self.uni, self.nee], heuristics)

@@ -1,30 +1,30 @@
-//! Path weights with a planted mistake: right in everything but one rule.
+//! Path weights with a deliberate error in one rule, for exercises and tests.
 
 use super::{Collision, DirectionSample, PathSettings, PathWeights, WalkWeights, WeightRecord, Weights};
 use crate::math::numbers_of_point;
 use crate::scene::{Fault, Heuristics};
 use crate::spectrum::{Radiance, Sampled};
 
-/// [`PathWeights`] that follow a [`Fault`].
+/// [`PathWeights`] with the error of a [`Fault`].
 #[derive(Clone, Copy, Debug)]
 pub struct FaultyWeights<const N: usize> {
     right: PathWeights<N>,
     fault: Fault,
-    /// Π 1/q over the roulette that was survived: what p_nee lacks.
+    /// Π 1/q over the roulettes survived: the factor missing from p_nee.
     survived: f32,
-    /// Null collisions of the flight.
+    /// Null collisions of the current flight.
     nulls: u32,
 }
 
-/// Null collisions that [`Fault::NullCap`] lets a flight have.
+/// Largest number of null collisions of a flight under [`Fault::NullCap`].
 const NULL_CAP: u32 = 8;
-/// How often [`Fault::NullByRounding`] strikes; with single precision it is some 10⁻⁷.
+/// Probability of an error per event under [`Fault::NullByRounding`]; in single precision it is some 10⁻⁷.
 const STRIKES: f32 = 1.0 / 512.0;
-/// Makes places strike that no other use of them does.
+/// Salt of the hash of positions, distinct from its other uses.
 const SALT: u32 = 0xfa17;
 
 impl<const N: usize> FaultyWeights<N> {
-    /// A collision as the mistake sees it.
+    /// Returns the collision with the fault's event densities.
     fn seen(&self, c: &Collision<N>) -> Collision<N> {
         if self.fault != Fault::HeroProbability {
             return *c;
@@ -42,7 +42,7 @@ impl<const N: usize> FaultyWeights<N> {
         }
     }
 
-    /// What p_nee is multiplied by that it should not be, for a turn.
+    /// Erroneous factor of p_nee when the path leaves a vertex.
     fn beyond(&self, outgoing: &DirectionSample) -> f32 {
         match self.fault {
             Fault::PhaseInBoth => outgoing.density,

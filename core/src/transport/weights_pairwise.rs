@@ -1,25 +1,28 @@
-//! Path weights in Miller's pairwise form: the quotients p_i / f_j of every density by every contribution.
+//! Path weights in Miller's pairwise form: quotients p_i / f_j of every density by every contribution.
 //!
 //! ```text
 //!   1 / L_j  =  mean_i ( p_uni,i / f_j + p_nee,i / f_j ) / Le_j
 //! ```
 //!
-//! They stay within range, as numerator and denominator are products of like factors. The price is C² numbers per
-//! technique and event, and that no heuristic but the balance heuristic can be formed of them (Miller et al. 2019,
-//! equations 26–30). Where f_j is zero the quotients are infinite, and stay so.
+//! The quotients stay within range, as numerator and denominator are products of like factors. The cost is N²
+//! numbers per technique and event, and only the balance heuristic can be formed from them (Miller et al.
+//! 2019, equations 26–30). Where f_j is zero the quotients are infinite, and remain infinite.
+//!
+//! In terms of pbrt-v4's `beta`, `r_u` and `r_l`, `uni[i][j]` is `r_u[i] / beta[j]` and `nee[i][j]` is
+//! `r_l[i] / beta[j]`; the density P of the technique that made the path cancels.
 
 use super::{Collision, DirectionSample, WalkWeights, WeightRecord, Weights};
 use crate::scene::Heuristics;
 use crate::spectrum::{Radiance, Sampled};
 
-/// p_uni,i / f_j and p_nee,i / f_j, by i.
+/// Quotients p_uni,i / f_j and p_nee,i / f_j; rows are indexed by i.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightsPairwise<const N: usize> {
     uni: [Sampled<N>; N],
     nee: [Sampled<N>; N],
 }
 
-/// Multiplies quotients by p_i / f_j of one event.
+/// Multiplies quotients by the factor p_i / f_j of one event.
 fn multiply<const N: usize>(quotients: &mut [Sampled<N>; N], p: Sampled<N>, f: Sampled<N>) {
     for (row, p) in quotients.iter_mut().zip(p.0) {
         *row =
@@ -32,7 +35,7 @@ fn multiply<const N: usize>(quotients: &mut [Sampled<N>; N], p: Sampled<N>, f: S
     }
 }
 
-/// 1 / mean over i.
+/// Reciprocal of the mean over i.
 fn inverse_mean<const N: usize>(quotients: [Sampled<N>; N]) -> Sampled<N> {
     let sum = quotients.into_iter().fold(Sampled::ZERO, |sum, row| sum + row);
     sum.map(|sum| N as f32 / sum)
@@ -42,7 +45,7 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
     const CAMERA: Self = Self { uni: [Sampled::ONE; N], nee: [Sampled::ONE; N] };
 
     fn pass(&mut self, optical_depth: Sampled<N>) {
-        // e^(−τ_i) / e^(−τ_j), as one exponential of a difference each.
+        // e^(−τ_i) / e^(−τ_j), evaluated as one exponential of the difference.
         for (i, (uni, nee)) in self.uni.iter_mut().zip(&mut self.nee).enumerate() {
             let ratio = (optical_depth - Sampled::splat(optical_depth[i])).exp();
             *uni *= ratio;
@@ -88,7 +91,7 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
         inverse_mean(self.uni).abs().max_component()
     }
 
-    /// Of the quotients of all pairs those by the contribution of the hero.
+    /// The quotients with the hero as i or as j; the other pairs are left out.
     fn kept(&self) -> WeightRecord {
         let of_hero = |quotients: [Sampled<N>; N]| Sampled(quotients.map(|row| row.hero())).lanes();
         let (uni, nee) = (of_hero(self.uni), of_hero(self.nee));

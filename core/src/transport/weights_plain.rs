@@ -1,5 +1,5 @@
-//! Paths as strings of events, with f, p_uni and p_nee as they are defined: in double precision,
-//! straight from the table of events, and in Miller's pairwise form.
+//! Paths as sequences of events, for tests of the path weights: f, p_uni and p_nee by their definitions, in
+//! double precision, straight from the table of events, and in Miller's pairwise form.
 
 use crate::medium::{Coefficients, MajorantSegment};
 use crate::scene::Absorption;
@@ -12,7 +12,7 @@ use proptest::array::uniform;
 use proptest::prelude::*;
 use std::array::from_fn;
 
-/// What a collision depends on, per component; extinction may exceed the majorant, or vanish.
+/// Medium at a collision, per component; the extinction may exceed the majorant, or vanish.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<const N: usize> {
     extinction: [f32; N],
@@ -27,11 +27,11 @@ pub(super) enum Step<const N: usize> {
         distance: f32,
     },
     Null(Place<N>),
-    /// With the density of the direction that the path leaves in.
+    /// Scattering vertex, with the density of the direction in which the path leaves.
     Scatter(Place<N>, f32),
-    /// On a surface of this albedo; with the density of the direction that the path leaves in.
+    /// Reflection on a surface of this albedo, with the density of the direction in which the path leaves.
     Reflect([f32; N], f32),
-    /// Roulette with this probability.
+    /// Russian roulette, survived with this probability.
     Survive(f32),
 }
 
@@ -39,13 +39,13 @@ pub(super) enum Step<const N: usize> {
 #[derive(Clone, Debug)]
 pub(super) struct Events<const N: usize> {
     pub absorption: Absorption,
-    /// Up to the last real vertex.
+    /// Events before the last real vertex.
     pub before: Vec<Step<N>>,
     /// The last real vertex.
     pub vertex: Step<N>,
-    /// With what density light sampling would have drawn the direction towards the light there.
+    /// Density with which light sampling would have drawn the direction towards the light at `vertex`.
     pub light: f32,
-    /// On the way to the light: passing and null collisions.
+    /// Events between `vertex` and the light: passed stretches and null collisions.
     pub after: Vec<Step<N>>,
 }
 
@@ -82,8 +82,8 @@ impl<const N: usize> Step<N> {
         }
     }
 
-    /// What f, p_uni and p_nee are multiplied by at component `i`. The density of a vertex's direction
-    /// is left out of p_nee.
+    /// Factors of f, p_uni and p_nee at component `i`. The density of a vertex's direction is left out of
+    /// p_nee.
     fn factors(&self, i: usize, absorption: Absorption) -> [f64; 3] {
         let of = |p: &Place<N>| [p.extinction[i], p.albedo[i], p.majorant[i]].map(f64::from);
         match self {
@@ -109,11 +109,11 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// The phase function over the density that directions in the medium are drawn with.
+/// Phase function divided by the density with which directions in the medium are drawn.
 const VALUE: f64 = 0.6;
 
 impl<const N: usize> Step<N> {
-    /// The turn of a path at a vertex.
+    /// Direction sample with which a path leaves a vertex.
     fn outgoing(&self) -> Option<DirectionSample> {
         let (value, density) = match self {
             Self::Scatter(_, density) => (VALUE as f32 * density, *density),
@@ -124,7 +124,7 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// f, p_uni and p_nee of a whole path, and the quotients p_i / f_j, which are kept event by event.
+/// f, p_uni and p_nee of a whole path, and the quotients p_i / f_j, each updated event by event.
 pub(super) struct Plain<const N: usize> {
     pub f: [f64; N],
     pub uni: [f64; N],
@@ -134,7 +134,7 @@ pub(super) struct Plain<const N: usize> {
 }
 
 impl<const N: usize> Events<N> {
-    /// The same path with another component as the hero.
+    /// Returns the same path with another component as the hero.
     pub fn rotated(&self, hero: usize) -> Self {
         let outgoing = |steps: &[Step<N>]| steps.iter().map(|step| step.rotated(hero)).collect();
         Self {
@@ -145,7 +145,7 @@ impl<const N: usize> Events<N> {
         }
     }
 
-    /// The same path without roulette.
+    /// Returns the same path without roulette.
     pub fn without_roulette(&self) -> Self {
         let mut events = self.clone();
         events.before.retain(|step| !matches!(step, Step::Survive(_)));
@@ -160,7 +160,7 @@ impl<const N: usize> Events<N> {
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
             Step::Survive(q) => path.survive(*q),
         }
-        // The last vertex is left by one technique or the other.
+        // Either technique leaves the last vertex.
         if let Some(outgoing) = step.outgoing() {
             path.leave(&outgoing);
         }
@@ -172,7 +172,7 @@ impl<const N: usize> Events<N> {
         path
     }
 
-    /// The weights as the walk makes the path.
+    /// Weights of the path when the walk makes it.
     pub fn walk<W: Weights<N>>(&self) -> W {
         let mut path = self.up_to_vertex();
         self.apply(&mut path, &self.vertex);
@@ -180,15 +180,15 @@ impl<const N: usize> Events<N> {
         path
     }
 
-    /// The weights as a connection from the last vertex makes the path.
+    /// Weights of the path when a connection from the last vertex makes it.
     pub fn connection<W: Weights<N>>(&self) -> W {
         let mut path = self.up_to_vertex::<W>();
         match &self.vertex {
             Step::Scatter(place, _) => path.scatter(&place.collision(self.absorption)),
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
-            other => panic!("{other:?} is no vertex"),
+            other => panic!("{other:?} is not a vertex"),
         }
-        let outgoing = self.vertex.outgoing().expect("a vertex turns the path");
+        let outgoing = self.vertex.outgoing().expect("a vertex has an outgoing direction");
         let mut link = path.connect(&outgoing, self.light);
         for step in &self.after {
             match step {
@@ -200,12 +200,12 @@ impl<const N: usize> Events<N> {
         link
     }
 
-    /// The definitions.
+    /// Evaluates the definitions.
     pub fn plain(&self) -> Plain<N> {
         let ones = [[1.0; N]; N];
         let mut plain =
             Plain { f: [1.0; N], uni: [1.0; N], nee: [1.0; N], uni_over_f: ones, nee_over_f: ones };
-        // Until the last vertex both techniques do the same; there p_nee gets the light's density.
+        // Up to the last vertex both techniques sample alike; at that vertex p_nee has the light's density.
         for step in &self.before {
             plain.multiply(|i| {
                 let [f, uni, _] = step.factors(i, self.absorption);
@@ -238,7 +238,7 @@ impl<const N: usize> Plain<N> {
     }
 }
 
-/// A value per component, now and then zero at one of them.
+/// Strategy for one value per component, in some cases with a zero at one of them.
 fn values<const N: usize>(lo: f32, hi: f32) -> impl Strategy<Value = [f32; N]> {
     (uniform(lo..hi), 0usize..100).prop_map(|(mut values, dark)| {
         if N > 1 && dark < N {
@@ -251,7 +251,7 @@ fn values<const N: usize>(lo: f32, hi: f32) -> impl Strategy<Value = [f32; N]> {
 fn place<const N: usize>() -> impl Strategy<Value = Place<N>> {
     (values(0.2, 3.0), values(0.1, 1.0), uniform(0.3f32..4.0))
         .prop_map(|(extinction, albedo, majorant)| Place { extinction, albedo, majorant })
-        .prop_filter("null coefficients that have digits", |p: &Place<N>| {
+        .prop_filter("null coefficients with significant digits", |p: &Place<N>| {
             (0..N).all(|i| (p.majorant[i] - p.extinction[i]).abs() > 0.02)
         })
 }

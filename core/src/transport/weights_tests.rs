@@ -1,5 +1,5 @@
-//! The rescaled weights against plain products in double precision and against Miller's pairwise form,
-//! and against themselves: whoever makes a path, the weights sum to one.
+//! Tests of the path weights: the rescaled form against plain products in double precision and against
+//! Miller's pairwise form, and weights that sum to one over all techniques and heroes.
 
 #[path = "weights_plain.rs"]
 mod plain;
@@ -20,7 +20,7 @@ use proptest::test_runner::{RngSeed, TestCaseError};
 
 const BALANCE: Heuristics = Heuristics { components: Heuristic::Balance, techniques: Heuristic::Balance };
 
-/// What single precision leaves of a product of thirty factors.
+/// Relative rounding error of a product of thirty factors in single precision.
 const ROUNDING: f64 = 1e-4;
 
 fn assert_near(what: &str, value: f32, expected: f64) -> Result<(), TestCaseError> {
@@ -33,7 +33,7 @@ fn mean<const N: usize>(f: impl FnMut(usize) -> f64) -> f64 {
     (0..N).map(f).sum::<f64>() / N as f64
 }
 
-/// Every way to use a path, each by its definition and by the pairwise form.
+/// Checks the value of every technique by its definition and by the pairwise form.
 fn equals_plain_products<W: Weights<N>, const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let p = events.plain();
     let (walk, link) = (events.walk::<W>(), events.connection::<W>());
@@ -47,7 +47,7 @@ fn equals_plain_products<W: Weights<N>, const N: usize>(events: &Events<N>) -> R
         let by_both = mean::<N>(|i| p.uni_over_f[i][j] + p.nee_over_f[i][j]);
         let check = |what, value: Sampled<N>, mean_density, pairwise: f64| {
             assert_near(what, value[j], p.f[j] / mean_density)?;
-            // 0/0 has no value: a component that carries nothing is left out of the pairwise form.
+            // 0/0 has no value: a component with zero contribution is left out of the pairwise form.
             if p.f[j] == 0.0 { Ok(()) } else { assert_near("pairwise", value[j], 1.0 / pairwise) }
         };
         if can_walk {
@@ -82,14 +82,14 @@ fn the_hero_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseErro
 }
 
 /// A path could have been made with any component as the hero, by either technique. The weight of each
-/// is its density over the sum of all.
+/// is its density over the sum of all densities.
 fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let plain = events.plain();
     let (mut weights, mut means) = (0.0, 0.0);
     for hero in 0..N {
         let turned = events.rotated(hero);
         let sum = |values: Sampled<N>| values.0.iter().map(|x| f64::from(*x)).sum::<f64>();
-        // The density that made the path is the unit of the rescaled numbers.
+        // Rescaled densities are in units of the density that made the path.
         if plain.uni[hero] > 0.0 {
             let walk = turned.walk::<PathWeights<N>>();
             assert_near("p_uni of the hero", walk.uni.hero(), 1.0)?;
@@ -108,7 +108,7 @@ fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCase
     Ok(())
 }
 
-/// As [`weights_sum_to_one`], of the values that estimators add, under every pair of heuristics.
+/// As [`weights_sum_to_one`], of the values that estimators add, for every pair of heuristics.
 fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     use Heuristic::{Balance, HeroOnly, Maximum, Power};
     let plain = events.plain();
@@ -124,7 +124,7 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
         let mut possible = [false; N];
         for hero in 0..N {
             let turned = events.rotated(hero);
-            // What a path adds, one time in N, over what it is worth.
+            // MIS-weighted value of the path, which is made one time in N, over its contribution.
             let share = |value: Sampled<N>, path: &PathWeights<N>| {
                 f64::from(value.hero()) / (f64::from(path.contribution().hero()) * N as f64)
             };
@@ -142,7 +142,7 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
         }
         let near_one = |sum: f64| (sum - 1.0).abs() < 2.0 * ROUNDING;
         if components == HeroOnly {
-            // Each component has its own paths, and only those.
+            // Each component has only its own paths.
             for (sum, possible) in by_hero.iter().zip(possible) {
                 prop_assert!(!possible || near_one(*sum), "{heuristics:?}: {by_hero:?}");
             }
@@ -156,7 +156,7 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
     Ok(())
 }
 
-/// Roulette multiplies what a path brings, and leaves its weights alone, bit by bit.
+/// Roulette scales the contribution and leaves uni and nee bitwise unchanged.
 fn roulette_leaves_weights_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let plain = events.plain();
     let without = events.without_roulette();
@@ -194,7 +194,7 @@ proptest! {
     }
 
     #[test]
-    fn other_books_come_to_the_same(three in events::<3>(), four in events::<4>()) {
+    fn other_weight_forms_agree(three in events::<3>(), four in events::<4>()) {
         equals_plain_products::<WeightsApart<f64, 3>, 3>(&three)?;
         equals_plain_products::<WeightsApart<f64, 4>, 4>(&four)?;
         equals_plain_products::<WeightsPairwise<3>, 3>(&three)?;
@@ -227,7 +227,7 @@ proptest! {
 }
 
 /// A hundred thousand events of albedo 1 under majorants up to a hundred times apart, drawn as a walk
-/// draws them: nothing overflows, and what the components bring still adds up to their number.
+/// draws them: nothing overflows, and the values of the components still add up to their number.
 #[test]
 fn a_hundred_thousand_events_stay_finite() {
     const EXTINCTION: [f32; 4] = [0.5, 50.0, 3.0, 0.6];
@@ -265,7 +265,8 @@ fn a_hundred_thousand_events_stay_finite() {
     }
 }
 
-/// The report's section 5: forty collisions of a dense medium leave single precision, and only it.
+/// The report's section 5: forty collisions in a dense medium leave the range of single precision, but not of
+/// double precision.
 #[test]
 fn products_apart_overflow_where_quotients_do_not() {
     let extinction = Sampled([400.0f32, 300.0, 200.0, 100.0]);

@@ -1,4 +1,4 @@
-//! A scene at the components of one path: what an estimator asks.
+//! A scene evaluated at the components of one path: the interface of an estimator to the scene.
 
 use super::{
     Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext, Technique, Vertex,
@@ -16,39 +16,39 @@ use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
 use glam::Vec3;
 
-/// Choices that every path of a render shares.
+/// Settings shared by all paths of a render.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// What happens at a collision that may absorb.
+    /// Treatment of absorption at a collision.
     pub absorption: Absorption,
-    /// How distances to the next event are drawn.
+    /// Rule by which distances to the next event are drawn.
     pub distances: DistanceSampling,
-    /// How a path is shared among all that could have made it.
+    /// Heuristics of multiple importance sampling.
     pub heuristics: Heuristics,
-    /// How f and p of a path are kept.
+    /// Form in which f and p of a path are stored.
     pub bookkeeping: Bookkeeping,
-    /// How spectral tracking draws events.
+    /// Rule by which spectral tracking draws events.
     pub tracking: Tracking,
-    /// A planted mistake.
+    /// Deliberate error in the path weights.
     pub fault: Fault,
-    /// Which walk meets the light that unidirectional sampling adds.
+    /// Walk that finds the lights of unidirectional sampling.
     pub light_walk: LightWalk,
-    /// Which light a connection goes to.
+    /// Rule by which a connection chooses its light.
     pub lights: LightSelection,
-    /// How a connection draws a direction towards its light.
+    /// Rule by which a connection draws a direction towards its light.
     pub light_sampling: LightSampling,
-    /// How the transmittance of a connection is estimated, where no MIS needs its density.
+    /// Transmittance estimator of a connection, where MIS does not need its density.
     pub transmittance: TransmittanceKind,
-    /// What directions in the medium are drawn from.
+    /// Distribution from which directions in the medium are drawn.
     pub directions: DirectionSampling,
-    /// Most segments between camera, real vertices and light; `u32::MAX` for no limit.
+    /// Largest number of segments between camera, real vertices and light; `u32::MAX` for no limit.
     pub max_depth: u32,
-    /// Russian roulette from this number of real vertices on; `u32::MAX` for never.
+    /// Number of real vertices from which Russian roulette applies; `u32::MAX` for never.
     pub roulette_depth: u32,
 }
 
 impl PathSettings {
-    /// The number of real vertices from which on Russian roulette may end a path; `u32::MAX` for never.
+    /// Number of real vertices from which Russian roulette may end a path; `u32::MAX` for never.
     #[must_use]
     #[inline]
     pub fn first_roulette(&self) -> u32 {
@@ -59,17 +59,17 @@ impl PathSettings {
     }
 }
 
-/// Steps of a path between two questions whether it is still wanted.
-const ASK_EVERY: u32 = 1024;
+/// Steps of a path between two checks of the cancellation token.
+const STEPS_PER_CHECK: u32 = 1024;
 
-/// The random numbers of one path, what it has cost, and who accompanies it.
+/// Random numbers, cost, cancellation token and optional observer of one path.
 #[derive(Debug)]
 pub struct Trace<'a> {
     /// Random numbers of the walk.
     pub sampler: Sampler,
-    /// Random numbers of what is drawn beside the walk: the connection at hand.
+    /// Random numbers of the current side stream: a connection, or a walk beside the path's own.
     pub connection: Sampler,
-    /// Evaluations of the medium's coefficients.
+    /// Look-ups in the medium: of its coefficients, and of its temperature for emission.
     pub lookups: u64,
     /// Collisions at which the extinction exceeded the majorant.
     pub exceeded: u64,
@@ -79,7 +79,7 @@ pub struct Trace<'a> {
 }
 
 impl<'a> Trace<'a> {
-    /// A path that has cost nothing yet.
+    /// Creates the trace of a path, with all counts at zero.
     #[must_use]
     pub fn new(sampler: Sampler, context: impl Into<PathContext<'a>>) -> Self {
         let connection = sampler.side_stream(SideStream::Connection);
@@ -94,34 +94,34 @@ impl<'a> Trace<'a> {
         }
     }
 
-    /// Begins something that is drawn beside the walk, by numbers of its own.
+    /// Restarts `connection` with the random numbers of a side stream.
     #[inline]
     pub fn start_side_stream(&mut self, what: SideStream) {
         self.connection = self.sampler.side_stream(what);
     }
 
-    /// Tells a step to whoever looks on.
+    /// Reports a step to the observer, if there is one.
     #[inline(always)]
     pub fn tell(&mut self, note: impl FnOnce() -> Note) {
         self.context.tell(note);
     }
 
-    /// Counts a collision or a vertex; true once the path is not wanted any more, and from then on.
+    /// Counts a step of the path and returns whether the path has been cancelled; once true, it remains true.
     pub fn must_stop(&mut self) -> bool {
         self.steps = self.steps.wrapping_add(1);
-        if self.steps.is_multiple_of(ASK_EVERY) && !self.context.cancel.is_active() {
+        if self.steps.is_multiple_of(STEPS_PER_CHECK) && !self.context.cancel.is_active() {
             self.stopped = true;
         }
         self.stopped
     }
 }
 
-/// Light that a ray meets.
+/// Light that a ray reaches.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival<R> {
     /// Emitted radiance.
     pub radiance: R,
-    /// Which light it is.
+    /// Index of the light.
     pub index: usize,
 }
 
@@ -131,9 +131,9 @@ pub struct World<'a, L, C, const N: usize> {
     pub scene: &'a Scene,
     /// The medium at the components.
     pub medium: L,
-    /// Wavelengths or channels.
+    /// Wavelengths or channels of the path.
     pub components: C,
-    /// Choices that every path shares.
+    /// Settings shared by all paths.
     pub settings: PathSettings,
 }
 
@@ -145,15 +145,15 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Walk::new(&self.medium, self.scene, ray, t_max, &self.settings)
     }
 
-    /// The walk of a connection, up to a light.
+    /// The walk of a connection along a ray, up to its light at `t_max`.
     #[must_use]
     #[inline(always)]
     pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
         Walk::along(&self.medium, self.scene, ray, t_max, EventRule::from(&self.settings), false)
     }
 
-    /// Radiance that the medium emits at a collision, to be weighted with what the path is worth there; black if it is
-    /// cold.
+    /// Radiance that the medium emits at a collision, not yet weighted by the path; `None` where the medium
+    /// does not emit.
     #[must_use]
     #[inline]
     pub fn emission_at(&self, collision: &Collision<N>, trace: &mut Trace<'_>) -> Option<C::Radiance> {
@@ -163,8 +163,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         (kelvin > 0.0).then(|| self.components.blackbody(kelvin) * Sampled::splat(emission.scale))
     }
 
-    /// Records a contribution to the estimate for the observer and returns it: `value` is `emitted` light weighted by the
-    /// path. The other technique that could have sampled the light would have done so with `other_density`.
+    /// Reports a contribution to the estimate to the observer and returns it: `value` is `emitted` weighted
+    /// by the path. The other technique that could have sampled the light has the density `other_density`.
     #[inline(always)]
     pub fn record(
         &self,
@@ -184,14 +184,14 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         value
     }
 
-    /// The surface that a ray meets first. Rays from the camera pass through hidden lights.
+    /// The surface that a ray meets first. Camera rays pass through hidden lights.
     #[must_use]
     pub fn nearest_surface(&self, ray: &Ray, from_camera: bool) -> NearestSurface<'_> {
         self.scene.nearest_surface(ray, f32::INFINITY, from_camera)
     }
 
-    /// Every light that a ray meets at its end: the one that `end` belongs to, or all that lie behind
-    /// the scene. The camera does not see hidden ones.
+    /// All lights that a ray reaches at its end: the light that `end` belongs to, or all lights behind the
+    /// scene. Hidden lights are left out for camera rays.
     pub fn arrivals(
         &self,
         ray: &Ray,
@@ -211,7 +211,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         })
     }
 
-    /// The diffuse vertex at which a ray ends, with its albedo; `None` on lights and beyond the scene.
+    /// The diffuse vertex at which a ray ends, with its albedo; `None` at a light or if the ray leaves the
+    /// scene.
     #[must_use]
     pub fn diffuse_vertex(
         &self,
@@ -222,8 +223,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let Some(Role::Diffuse(albedo)) = end.role() else { return None };
         let point = ray.at(end.t());
         let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
-        // Off the surface by several times the rounding of the point's own coordinates, whose error is
-        // that of the ray's origin and of the point.
+        // Lifts the vertex off the surface by several times the rounding error of its coordinates, which has
+        // the magnitude of the ray's origin and of the point.
         let lift = 1e-6 * (point.abs().max_element() + ray.origin.abs().max_element());
         let albedo = self.components.evaluate(albedo);
         trace.tell(move || Note::Surface { point, albedo: albedo.lanes() });
@@ -242,7 +243,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Vertex::Medium { point, omega_in: ray.direction, parts }
     }
 
-    /// What directions are drawn from.
+    /// Sampler of outgoing directions, by the settings.
     #[must_use]
     #[inline]
     pub fn directions(&self) -> DirectionSampler<'_> {
@@ -254,7 +255,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         DirectionSampler { phase: &self.scene.phase, guide }
     }
 
-    /// Samples the direction in which a path leaves a vertex, multiplies it into the weights and returns the next ray.
+    /// Samples the direction in which a path leaves a vertex, multiplies it into the weights and returns the
+    /// next ray.
     #[inline]
     pub fn sample_direction(
         &self,
@@ -267,7 +269,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Ray { origin: vertex.point(), direction: outgoing.direction }
     }
 
-    /// Draws the turn of a path at a vertex.
+    /// Draws the direction in which a path leaves a vertex.
     #[inline]
     pub fn sample_outgoing(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> DirectionSample {
         let u = trace.sampler.direction();
@@ -286,8 +288,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
     }
 
-    /// Russian roulette: continues with a probability that is the throughput, between 0.05 and 1, and
-    /// adjusts the weights of what survives.
+    /// Russian roulette: the path survives with a probability equal to its throughput, clamped to 0.05 to 1,
+    /// and its weights are divided accordingly.
     pub fn survives_roulette(
         &self,
         vertices: u32,

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use majorant_core::io::volume::{
-    BLOCK, Background, BlockGrid, GridInfo, Limits, Volume, VolumeError, VoxelGrid, info, read_sparse_volume,
-    read_vdb, validate_density,
+    BLOCK, Background, BlockGrid, GridInfo, ReadLimits, Volume, VolumeError, VoxelGrid, info,
+    read_sparse_volume, read_vdb, validate_density,
 };
 use serde_json::Value;
 
@@ -181,7 +181,7 @@ fn compare_values(info: &GridInfo, truth: &Value, wrong: &mut Vec<String>) {
 
 /// Compares the dense grid and its transform. Returns its size, or why there is none.
 fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<String>) -> String {
-    let grid = match read_vdb(path, Some(&info.name), &Limits::default()) {
+    let grid = match read_vdb(path, Some(&info.name), &ReadLimits::default()) {
         Ok(grid) => grid,
         Err(error @ VolumeError::TooLarge { .. }) => return error.to_string(),
         Err(error) => {
@@ -212,7 +212,7 @@ fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<St
 
 /// Reads the grid into blocks, and compares them with the array voxel by voxel.
 fn compare_blocks(path: &Path, array: &VoxelGrid, wrong: &mut Vec<String>) {
-    let blocks = match read_sparse_volume(path, Some(array.name.as_str()), &Limits::default(), &|_| ()) {
+    let blocks = match read_sparse_volume(path, Some(array.name.as_str()), &ReadLimits::default(), &|_| ()) {
         Ok(Volume::Blocks(blocks)) => blocks,
         Ok(Volume::Array(again)) => {
             if again.values != array.values || again.background == 0.0 && again.channels == 1 {

@@ -8,15 +8,11 @@ mod table;
 
 pub(super) use dialog::self_check_ui;
 
+use crate::background::{Background, Reply};
 use crate::model::{Work, work_after};
 use majorant_core::check::{self, Case, Check, CheckError, Effort, Row, Verdict};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
-use majorant_core::transport::CancelToken;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
 
 /// What is checked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +35,13 @@ pub enum Ending {
     Failed(String),
 }
 
-/// What the thread tells.
+/// What to check: the user's scene with its name, or the built-in cases; `deep` for the long version.
+struct Order {
+    own: Option<(String, SceneDoc)>,
+    deep: bool,
+}
+
+/// What the worker reports.
 enum News {
     At { done: usize, total: usize, what: String },
     Rows(Vec<Row>),
@@ -47,15 +49,7 @@ enum News {
     Ended(Ending),
 }
 
-/// A check that runs.
-struct Running {
-    generation: Arc<AtomicU64>,
-    news: Receiver<News>,
-    thread: JoinHandle<()>,
-}
-
 /// The self-check of the window.
-#[derive(Default)]
 pub struct SelfCheck {
     /// Whether it is shown.
     pub open: bool,
@@ -64,9 +58,7 @@ pub struct SelfCheck {
     of: Option<SceneDoc>,
     deep: bool,
     only_failures: bool,
-    running: Option<Running>,
-    /// Threads that have been told to end. The window does not wait for them: one may be reading a file.
-    leaving: Vec<JoinHandle<()>>,
+    worker: Background<Order, News>,
     done: usize,
     total: usize,
     at: String,
@@ -75,13 +67,21 @@ pub struct SelfCheck {
     ending: Option<Ending>,
 }
 
-/// The program waits for its threads when it ends.
-impl Drop for SelfCheck {
-    fn drop(&mut self) {
-        self.cancel();
-        for thread in self.leaving.drain(..) {
-            // A panic in it has been reported as the end of its news.
-            let _ = thread.join();
+impl Default for SelfCheck {
+    fn default() -> Self {
+        Self {
+            open: false,
+            subject: Subject::default(),
+            of: None,
+            deep: false,
+            only_failures: false,
+            worker: Background::new("self-check", work),
+            done: 0,
+            total: 0,
+            at: String::new(),
+            rows: Vec::new(),
+            notes: Vec::new(),
+            ending: None,
         }
     }
 }
@@ -102,21 +102,17 @@ impl SelfCheck {
     /// Whether a check runs.
     #[must_use]
     pub fn is_running(&self) -> bool {
-        self.running.is_some()
+        self.worker.is_running()
     }
 
     /// Starts over; `wake` is called whenever there is news.
-    pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + 'static) {
+    pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + Sync + 'static) {
         self.clear();
         let own = (self.subject == Subject::ThisScene).then(|| (name.to_owned(), doc.clone()));
         self.of = own.as_ref().map(|(_, doc)| doc.clone());
-        let (deep, generation) = (self.deep, Arc::new(AtomicU64::new(0)));
-        let (sender, news) = channel();
-        let theirs = Arc::clone(&generation);
-        let work = move || work(own, deep, CancelToken::new(&theirs, 0), &sender, &wake);
-        match std::thread::Builder::new().name("majorant-self-check".into()).spawn(work) {
-            Ok(thread) => self.running = Some(Running { generation, news, thread }),
-            Err(error) => self.ending = Some(Ending::Failed(format!("no thread could be started: {error}"))),
+        self.worker.set_wake(wake);
+        if let Err(error) = self.worker.submit(Order { own, deep: self.deep }) {
+            self.ending = Some(Ending::Failed(format!("no thread could be started: {error}")));
         }
     }
 
@@ -130,9 +126,8 @@ impl SelfCheck {
 
     /// Ends the check that runs; its rows stay.
     pub fn cancel(&mut self) {
-        if let Some(running) = self.running.take() {
-            running.generation.store(1, Ordering::Relaxed);
-            self.leaving.push(running.thread);
+        if self.worker.is_running() {
+            self.worker.cancel();
             self.ending = Some(Ending::Cancelled);
         }
     }
@@ -147,28 +142,18 @@ impl SelfCheck {
         (self.of, self.ending) = (None, None);
     }
 
-    /// Takes note of what the thread has told.
+    /// Takes over what the worker has reported since the last call.
     pub fn poll(&mut self) {
-        self.leaving.retain(|thread| !thread.is_finished());
-        let Some(running) = &self.running else { return };
-        let mut ended = None;
-        loop {
-            match running.news.try_recv() {
-                Ok(News::At { done, total, what }) => (self.done, self.total, self.at) = (done, total, what),
-                Ok(News::Rows(rows)) => self.rows.extend(rows),
-                Ok(News::Notes(notes)) => self.notes = notes,
-                Ok(News::Ended(ending)) => ended = Some(ending),
-                Err(std::sync::mpsc::TryRecvError::Empty) => break,
-                Err(std::sync::mpsc::TryRecvError::Disconnected) => {
-                    let lost = || Ending::Failed("it stopped on an internal error; run it again".into());
-                    ended = Some(ended.unwrap_or_else(lost));
-                    break;
-                }
+        for news in self.worker.poll() {
+            match news {
+                News::At { done, total, what } => (self.done, self.total, self.at) = (done, total, what),
+                News::Rows(rows) => self.rows.extend(rows),
+                News::Notes(notes) => self.notes = notes,
+                News::Ended(ending) => self.ending = Some(ending),
             }
         }
-        if ended.is_some() {
-            self.leaving.extend(self.running.take().map(|running| running.thread));
-            self.ending = ended;
+        if self.worker.has_failed() && self.ending.is_none() {
+            self.ending = Some(Ending::Failed("it stopped on an internal error; run it again".into()));
         }
     }
 
@@ -215,30 +200,19 @@ fn plan(own: Option<(String, SceneDoc)>, deep: bool) -> Result<Check, CheckError
     Ok(Check { cases: vec![case], effort })
 }
 
-fn work(
-    own: Option<(String, SceneDoc)>,
-    deep: bool,
-    cancel: CancelToken<'_>,
-    news: &Sender<News>,
-    wake: &dyn Fn(),
-) {
-    let tell = |what: News| {
-        // The window may be gone by now; then nobody wants to know.
-        let _ = news.send(what);
-        wake();
-    };
-    let result = plan(own, deep).and_then(|check| {
-        check.run(cancel, |p| {
+fn work(order: Order, reply: &Reply<'_, Order, News>) {
+    let result = plan(order.own, order.deep).and_then(|check| {
+        check.run(reply.cancel(), |p| {
             let what = format!("{}  ·  {}", p.scene, p.estimator);
-            tell(News::At { done: p.done, total: p.total, what });
+            reply.send(News::At { done: p.done, total: p.total, what });
             if !p.rows.is_empty() {
-                tell(News::Rows(p.rows.to_vec()));
+                reply.send(News::Rows(p.rows.to_vec()));
             }
         })
     });
-    tell(match result {
+    reply.send(match result {
         Ok(Some(report)) => {
-            tell(News::Notes(report.notes));
+            reply.send(News::Notes(report.notes));
             News::Ended(Ending::Finished(report.seconds))
         }
         Ok(None) => News::Ended(Ending::Cancelled),
@@ -266,8 +240,7 @@ mod tests {
 
     #[test]
     fn a_scene_of_ones_own_ends_in_rows() {
-        let mut check = SelfCheck::default();
-        check.subject = Subject::ThisScene;
+        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
         let doc = scene(
             "majorant = 1\nmedium = { extinction = 1.0 }\nlights = [{ kind = \"environment\" }]\n\
              film = { width = 8, height = 8 }",
@@ -282,8 +255,7 @@ mod tests {
 
     #[test]
     fn a_file_that_is_missing_becomes_a_message() {
-        let mut check = SelfCheck::default();
-        check.subject = Subject::ThisScene;
+        let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
         let doc = scene("majorant = 1\n[medium]\ndensity = { kind = \"grid\", file = \"/none.vdb\" }");
         check.start("mine", &doc, || {});
         let Ending::Failed(message) = finished(&mut check) else { panic!("it should have failed") };
@@ -292,8 +264,7 @@ mod tests {
 
     #[test]
     fn cancelling_keeps_the_rows_and_ends_the_thread() {
-        let mut check = SelfCheck::default();
-        check.deep = true;
+        let mut check = SelfCheck { deep: true, ..SelfCheck::default() };
         check.start("", &SceneDoc::default(), || {});
         while check.rows().is_empty() {
             std::thread::sleep(Duration::from_millis(2));

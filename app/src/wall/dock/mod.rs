@@ -12,7 +12,7 @@ mod scanline;
 
 use super::inspector::Inspector;
 use super::state::Wall;
-use crate::lab::Command;
+use crate::model::{Command, Pair, WindowDoc};
 use crate::theme::{Palette, UNIT};
 use egui::{Align, Button, ComboBox, Frame, Label, Layout, Margin, RichText, Ui};
 use majorant_core::scene::SceneDoc;
@@ -99,7 +99,7 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
                 {
                     ui.ctx().copy_text(csv);
                 }
-                let pair = cx.wall.analysis().pair.filter(|(pair, _)| *pair == cx.doc.compare.pair);
+                let pair = cx.wall.analysis().pair.filter(|(pair, _)| *pair == WindowDoc::of(cx.doc).pair);
                 if let Some((_, found)) = pair.filter(|_| cx.doc.view_count() > 1) {
                     let (text, colour) = pair_verdict(cx, &found, palette);
                     ui.add_space(UNIT);
@@ -121,7 +121,7 @@ fn pair_verdict(
 ) -> (String, egui::Color32) {
     use super::caption::probability;
     use majorant_core::compare::{Verdict, label};
-    let majorant_core::scene::Pair(a, b) = cx.doc.compare.pair;
+    let Pair(a, b) = WindowDoc::of(cx.doc).pair;
     let (a, b) = (label(a), label(b));
     let place = if cx.doc.compare.region.is_some() { " in the box" } else { "" };
     match found.verdict {

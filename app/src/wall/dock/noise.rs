@@ -2,7 +2,7 @@
 //! beside it.
 
 use super::{Cx, Tab, empty};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::{Palette, UNIT, view_colour};
 use crate::wall::inspector::NoiseQuestion;
 use egui::{Align, Button, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};
@@ -103,7 +103,7 @@ fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence
     let question = NoiseQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), region };
     let chroma = slot.picture().and_then(|snapshot| chroma_share(snapshot, region));
     let wake = move || {
-        if let Some(ctx) = wake {
+        if let Some(ctx) = &wake {
             ctx.request_repaint();
         }
     };

@@ -45,7 +45,7 @@ impl Tab for Parts {
             split: state.split,
             spp: state.spp(),
         };
-        let parts = state.errand.answer_to(&question)?;
+        let parts = state.query.answer_to(&question)?;
         let shares = parts.variance_shares(|_, _| true);
         let mut text = String::from("part,r,g,b,variance_share\n");
         for (k, layer) in parts.layers.iter().enumerate() {
@@ -130,7 +130,7 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         if play.clicked() {
             state.playing = (!playing).then(|| ui.input(|input| input.time));
         }
-        if state.errand.is_running() {
+        if state.query.is_running() {
             ui.spinner();
         }
         let text = "mean, and share of the noise";
@@ -147,13 +147,13 @@ fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     let state = &mut cx.inspector.parts;
     let Some(probe) = slot.probe().cloned() else {
         // Another scene is being built; what was taken apart before is of an older one.
-        return state.errand.newest().map(|parts| (Arc::clone(parts), false));
+        return state.query.newest().map(|parts| (Arc::clone(parts), false));
     };
     let (split, spp) = (state.split, state.spp());
     let question =
         PartsQuestion { of: (cx.wall.selected(), slot.state.generation, probe.raises()), split, spp };
     let ctx = ui.ctx().clone();
-    state.errand.ask(
+    state.query.ask(
         &question,
         move || ctx.request_repaint(),
         move |cancel| probe.strategies(split, 0..spp, cancel),

@@ -1,10 +1,10 @@
 //! Which view wins, by how much, and how sure that is.
 
 use super::{Cx, Tab, empty};
-use crate::lab::Command;
-use crate::lab::stats::{count, duration};
+use crate::model::Command;
+use crate::model::WallEdit;
+use crate::model::stats::{count, duration};
 use crate::theme::{Palette, view_colour};
-use crate::wall::WallEdit;
 use crate::wall::caption::{against, chip, digits, error_tip, not_measured, verdict};
 use egui::{Align, Color32, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};

@@ -56,7 +56,7 @@ impl Tab for Ray {
         }
         let Some(bench) = bench(cx, Some(ui.ctx().clone())) else {
             let built = cx.wall.selected_slot().is_some_and(|slot| slot.probe().is_some());
-            let missed = built && !cx.inspector.ray.errand.is_running();
+            let missed = built && !cx.inspector.ray.query.is_running();
             return empty(
                 ui,
                 if missed { "This ray misses the medium." } else { "The ray is being measured." },
@@ -119,7 +119,7 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         if ui.add(again).on_hover_text("Shows another one of the estimates step by step").clicked() {
             state.example += 1;
         }
-        if state.errand.is_running() {
+        if state.query.is_running() {
             ui.spinner();
         }
     });
@@ -193,11 +193,11 @@ fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> 
     let state = &mut cx.inspector.ray;
     let (extinction, cells, majorant_factor) = (state.extinction, state.cells, state.factor);
     let wake = move || {
-        if let Some(ctx) = wake {
+        if let Some(ctx) = &wake {
             ctx.request_repaint();
         }
     };
-    let answer = state.errand.ask(&question, wake, move |cancel| {
+    let answer = state.query.ask(&question, wake, move |cancel| {
         let along = match through {
             Through::Shape(shape) => Along::Shape { shape, extinction, cells, majorant_factor },
             Through::Pixel => {

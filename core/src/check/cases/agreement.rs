@@ -1,9 +1,9 @@
-//! Scenes whose answer nobody knows: every estimator, one answer.
+//! Scenes without a known answer, on which all estimators have to agree.
 //!
-//! Estimators share little beyond the algebra of `transport`, and fail differently: unidirectional ones
-//! know nothing of light sampling, independent tracking nothing of heroes and weights. Scenes at the edges
-//! of what a scene can be, with what closed forms cannot hold: chromatic grids, several lights, surfaces,
-//! grids of albedo, depth limits, analogue absorption, roulette.
+//! Estimators share little beyond the algebra of `transport`, and fail differently: unidirectional ones do
+//! not sample lights, independent tracking uses neither hero wavelengths nor MIS weights. The scenes cover
+//! extremes and features for which there is no closed form: chromatic grids, several lights, surfaces, albedo
+//! grids, depth limits, analogue absorption, roulette.
 
 use super::super::{Answer, Case, CheckError, Family, fixture};
 use super::{ASIDE, CONNECTING, SEVERAL_COMPONENTS, SPLITTING, SPLITTING_FAMILIES};
@@ -18,7 +18,7 @@ use crate::spectrum::WavelengthSampling;
 
 pub(super) const FAMILY: Family = Family {
     id: "agreement",
-    about: "No answer is known: the estimators are held against each other, pair by pair.",
+    about: "No answer is known: the estimators are compared with each other, pair by pair.",
     deep_only: false,
     cases,
 };
@@ -138,7 +138,7 @@ radiance = \"440:1.4, 640:0.7\"
 scale = 0.3
 ";
 
-/// A sky with one bright texel, and grids of two resolutions with components that are zero.
+/// An environment map with one bright texel, and grids of two resolutions with components that are zero.
 fn files() -> Library {
     let mut texels = vec![[0.4, 0.5, 0.8]; 16 * 8];
     texels[2 * 16 + 11] = [12.0, 10.0, 8.0];

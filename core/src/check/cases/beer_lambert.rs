@@ -1,11 +1,10 @@
-//! Absorption alone: a ray brings e^(−∫σ ds) of the light behind it, wavelength by wavelength.
+//! Pure absorption: a ray receives e^(−∫σ ds) of the light behind the medium, at every wavelength.
 //!
-//! Bouguer, Lambert and Beer: with albedo 0, L = e^(−τ), τ = ∫ σt ds. On the axis the cube is 1 deep, so
-//! a homogeneous one has τ = σ. A density that is linear along the axis, from a at the back to b in
-//! front, has τ = σ (a + b)/2; seen from inside, at depth fraction s from the back, σ (a s + (b−a) s²/2).
-//! (A two-voxel grid holds its values beyond the voxels' centres: linear from ¼ to ¾, constant outside.)
-//! In spectral mode the film shows ∫ L(λ) e^(−τ(λ)) response(λ) dλ; light confined to a narrow band tests
-//! single wavelengths.
+//! Bouguer, Lambert and Beer: with albedo 0, L = e^(−τ), τ = ∫ σt ds. The cube has depth 1 along the axis, so
+//! that a homogeneous one has τ = σ. A density that is linear along the axis, from a at the back to b in
+//! front, has τ = σ (a + b)/2; from inside, at depth fraction s from the back, σ (a s + (b−a) s²/2). (A
+//! two-voxel grid is constant beyond the voxel centres: linear from ¼ to ¾, constant outside.) In spectral
+//! mode the film shows ∫ L(λ) e^(−τ(λ)) response(λ) dλ; light in a narrow band tests single wavelengths.
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
@@ -14,13 +13,13 @@ use crate::io::Library;
 
 pub(super) const FAMILY: Family = Family {
     id: "beer-lambert",
-    about: "Absorption alone: e^(−∫σ ds) of the light behind, wavelength by wavelength.",
+    about: "Pure absorption: e^(−∫σ ds) of the light behind the medium, at every wavelength.",
     deep_only: false,
     cases,
 };
 
 const SIGMA: Points = Points(&[(400.0, 0.3), (500.0, 1.5), (560.0, 0.5), (700.0, 1.0)]);
-/// Ratio 100 between wavelengths, and none at the red end.
+/// Ratio of 100 between wavelengths, and no extinction at the red end.
 const CHROMATIC: Points = Points(&[(420.0, 0.04), (530.0, 4.0), (620.0, 0.0)]);
 const BANDS: [(&str, Points); 3] = [
     ("band-450nm", Points(&[(415.0, 0.0), (425.0, 1.0), (475.0, 1.0), (485.0, 0.0)])),
@@ -56,7 +55,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
 
     let rgb = |sigma: [f64; 3]| sigma.map(|s| (-s).exp());
     for factor in [0.5f64, 1.0, 1.7, 10.0] {
-        // Below 1 the variance grows exponentially with the excess: keep it near one mean free path.
+        // Below 1 the variance grows exponentially with the excess: the optical depth stays near one mean
+        // free path.
         let scale = if factor < 1.0 { 0.3 } else { 1.0 };
         let sigma = [0.04, 4.0, 0.0];
         let medium = format!(
@@ -66,7 +66,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         cases.push(slab(&format!("majorant-{factor}"), &medium, "1.0", "rgb", colour)?);
     }
 
-    // z rises towards the camera: 0.5 at the back, 3.5 in front.
+    // z increases towards the camera: 0.5 at the back, 3.5 in front.
     let (back, front) = (0.5f64, 3.5f64);
     let two = fixture::npy([1, 1, 2], 1, &[back as f32, front as f32]);
     let medium = "extinction = { rgb = [0.2, 0.6, 1.0] }
@@ -76,7 +76,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let whole = [0.2, 0.6, 1.0].map(|s| (-s * column).exp());
     let linear = slab("linear", medium, "1.0", "rgb", whole)?
         .with_files(Library::default().with_volume("linear.npy", two));
-    // From the middle of the cube to the back: constant over a quarter, then linear up to the mean.
+    // From the centre of the cube to the back: constant over a quarter, then linear up to the mean.
     let rest = 0.25 * back + 0.25 * 0.5 * (back + column);
     let inside = [0.2, 0.6, 1.0].map(|s| (-s * rest).exp());
     cases.push(

@@ -1,8 +1,8 @@
-//! Lights seen through the medium: e^(−τ) of their radiance, with a depth limit of 1.
+//! Lights seen through the medium: e^(−τ) times their radiance, with a depth limit of 1.
 //!
-//! A depth of 1 admits no scattering, so a ray that meets a light after an optical depth τ brings Le e^(−τ)
-//! whatever the albedo. A sphere in the middle of the cube is met at its surface; a rectangle behind the
-//! cube after all of it; a box in front of a light hides it.
+//! A depth of 1 admits no scattering, so that a ray that hits a light after an optical depth τ receives Le
+//! e^(−τ), whatever the albedo. A sphere in the middle of the cube is hit at its surface, a rectangle behind
+//! the cube after its whole depth, and a box in front of a light hides it.
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
@@ -10,7 +10,7 @@ use super::AXIS;
 
 pub(super) const FAMILY: Family = Family {
     id: "emission",
-    about: "Lights seen through a medium, without scattering: e^(−τ) of their radiance.",
+    about: "Lights seen through a medium, without scattering: e^(−τ) times their radiance.",
     deep_only: false,
     cases,
 };
@@ -23,7 +23,7 @@ fn case(name: &str, rest: &str, mode: &str, colour: [f64; 3]) -> Result<Case, Ch
 fn cases() -> Result<Vec<Case>, CheckError> {
     let sigma = Points(&[(430.0, 1.0), (560.0, 4.0), (650.0, 0.5)]);
     let lamp = Points(&[(400.0, 0.3), (700.0, 2.0)]);
-    // The sphere's surface is 0.4 behind the cube's face.
+    // The surface of the sphere is 0.4 behind the face of the cube.
     let inside = truth::film(|l| 1.5 * lamp.at(l) * (-0.4 * sigma.at(l)).exp());
     let sphere = format!(
         "[medium]

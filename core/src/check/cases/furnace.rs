@@ -1,9 +1,9 @@
-//! The white furnace: albedo 1 and radiance 1 from everywhere.
+//! White furnace test: albedo 1 and radiance 1 from all directions.
 //!
-//! The radiance 1 in every direction solves the equation of transfer: what is scattered out of a ray,
-//! σt · 1, is scattered into it, σs ∫ p · 1 dω = σt. So every ray brings 1, whatever the medium does:
-//! any density, phase function, majorant, surfaces of albedo 1, the camera inside or out. In spectral
-//! mode 1 at every wavelength shows as the colour of illuminant E.
+//! Radiance 1 in every direction solves the equation of transfer: the radiance scattered out of a ray, σt ·
+//! 1, equals the radiance scattered into it, σs ∫ p · 1 dω = σt. Every ray therefore receives 1 for any
+//! density, phase function and majorant, for surfaces of albedo 1, and for a camera inside or outside the
+//! medium. In spectral mode, 1 at every wavelength is the colour of illuminant E.
 
 use super::super::{Answer, Case, CheckError, Family, truth};
 use super::ASIDE;
@@ -12,7 +12,7 @@ use crate::scene::{Absorption, Angle, Mode, PhaseDoc};
 
 pub(super) const FAMILY: Family = Family {
     id: "furnace",
-    about: "Albedo 1 and radiance 1 from everywhere: every ray brings radiance 1.",
+    about: "Albedo 1 and radiance 1 from all directions: every ray receives radiance 1.",
     deep_only: false,
     cases,
 };
@@ -93,7 +93,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             Mode::Rgb,
         ),
     ];
-    // A bright ring with nothing around it.
+    // A bright ring with a dark gap around it.
     let corona = vec![[0.0, 20.0], [10.0, 0.0], [15.0, 0.0], [25.0, 4.0], [40.0, 0.2], [180.0, 0.1]];
     for (name, phase) in [
         ("hg-forward", PhaseDoc::HenyeyGreenstein { g: 0.9 }),
@@ -113,7 +113,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     for factor in [0.5f32, 1.0, 1.7, 10.0] {
         let loose = grid.varied(format!("furnace/majorant-{factor}"), |doc| {
             doc.medium.majorant.factor = factor;
-            // Below 1 the variance grows exponentially with the excess: keep it below one mean free path.
+            // Below 1 the variance grows exponentially with the excess: the optical depth stays below one
+            // mean free path.
             doc.medium.scale = if factor < 1.0 { 0.25 } else { 1.0 };
         });
         cases.push(in_mode(loose, Mode::Rgb));

@@ -1,16 +1,16 @@
-//! Escape from a half-space: multiple scattering and absorption with a known answer.
+//! Reflection of a half-space: multiple scattering and absorption with a known answer.
 //!
-//! A half-space scatters isotropically with albedo a and is lit by radiance 1 from every direction above
-//! it. What comes back along the normal is Chandrasekhar's (*Radiative Transfer*, 1960, §§ 33–38)
+//! A half-space with isotropic scattering and albedo a is lit by radiance 1 from every direction above it.
+//! The radiance reflected along the normal is Chandrasekhar's (*Radiative Transfer*, 1960, §§ 33–38)
 //!
 //! ```text
 //!   R = 1 − √(1 − a) H(1),     1/H(μ) = √(1 − a) + (a/2) ∫₀¹ μ′ H(μ′) / (μ + μ′) dμ′
 //! ```
 //!
-//! which is also the probability that a photon which enters there escapes. It does not depend on the
-//! extinction, so that components may differ in it by any ratio: a hundredfold here. The half-space is a
-//! box of at least 20 mean free paths down and 60 across; with a ≤ 0.95 light decays by at least 0.38 per
-//! mean free path, to e^(−15) on the way down and back, so that nothing is missing that could be seen.
+//! which is also the escape probability of a photon that enters along the normal. It does not depend on the
+//! extinction, so that components may differ in extinction by any ratio: a hundredfold here. The half-space
+//! is a box of at least 20 mean free paths in depth and 60 across. With a ≤ 0.95, radiance decays by at least
+//! 0.38 per mean free path, to e^(−15) on the way down and back, so that the truncation is not measurable.
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
@@ -20,16 +20,16 @@ use crate::spectrum::SpectrumDoc;
 
 pub(super) const FAMILY: Family = Family {
     id: "half-space",
-    about: "Multiple scattering in a half-space: Chandrasekhar's H function gives what escapes.",
+    about: "Multiple scattering in a half-space: Chandrasekhar's H function gives the reflected radiance.",
     deep_only: false,
     cases,
 };
 
 const NODES: usize = 64;
 
-/// R for an albedo.
+/// Reflected radiance R for an albedo.
 fn escape(albedo: f64) -> f64 {
-    // H rises steeply at 0: with μ = s², midpoint nodes in s crowd there.
+    // H rises steeply at 0; with μ = s², midpoint nodes in s are dense there.
     let mu: Vec<f64> = (0..NODES).map(|i| ((i as f64 + 0.5) / NODES as f64).powi(2)).collect();
     let weight = |i: usize| 2.0 * mu[i].sqrt() / NODES as f64;
     let root = (1.0 - albedo).sqrt();
@@ -44,7 +44,7 @@ fn escape(albedo: f64) -> f64 {
     1.0 - root * at(1.0, &h)
 }
 
-/// The albedo of an isotropic half-space that reflects the share A of diffuse light, by van de Hulst's formula
+/// Albedo of an isotropic half-space that reflects the fraction A of diffuse light, by van de Hulst's formula
 /// A = (1 − s)(1 − 0.139 s)/(1 + 1.17 s), s = √(1 − albedo), solved by bisection.
 fn albedo_of(colour: f64) -> f64 {
     let (mut lo, mut hi) = (0.0f64, 1.0f64);
@@ -74,7 +74,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let rgb = toml("{ rgb = [1.0, 100.0, 10.0] }", "{ rgb = [0.95, 0.3, 0.8] }", "rgb");
     let rgb = Case::new("half-space/rgb", &rgb, answer)?;
     let grey = rgb.varied("half-space/weighted", |doc| {
-        // Without roulette a path ends where it leaves the box, or where its weight has underflowed.
+        // Without roulette a path ends when it leaves the box, or when its weight underflows.
         doc.medium.extinction = SpectrumDoc::Constant(1.0);
     });
     let points = Points(&[(400.0, 0.3), (700.0, 0.95)]);
@@ -86,7 +86,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     });
     let nm = toml("\"430:2, 540:40, 600:1\"", &points.toml(), "spectral");
     let nm = Case::new("half-space/spectral", &nm, Answer::uniform(seen, Layout::WHOLE).within(2e-4))?;
-    // The same coefficients given otherwise: σa and σs; free paths and what the half-space would reflect.
+    // The same coefficients in other parametrisations: σa and σs; mean free path and diffuse reflectance.
     let sums = rgb.varied("half-space/absorption-scattering", |doc| {
         doc.medium.coefficients = Some(CoefficientsDoc::AbsorptionScattering {
             absorption: SpectrumDoc::Rgb([0.05, 70.0, 2.0]),
@@ -119,7 +119,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
 mod tests {
     use super::escape;
 
-    /// H by its integral representation instead of its equation:
+    /// H(1) by its integral representation instead of its equation:
     /// ln H(μ) = −(μ/π) ∫₀^∞ ln(1 − a arctan(t)/t) / (1 + μ² t²) dt, here with t = tan θ and μ = 1.
     fn h_at_1(albedo: f64) -> f64 {
         let quarter = std::f64::consts::FRAC_PI_2;

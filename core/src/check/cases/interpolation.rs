@@ -1,35 +1,35 @@
-//! Absorption through rough grids, pixel block by pixel block, by quadrature.
+//! Absorption through rough grids, in blocks of pixels, by quadrature.
 //!
-//! A block's colour is the mean over its pixels' areas of e^(−σ ∫ density ds). The column ∫ density ds is
-//! integrated along every ray of a fine raster, through a trilinear interpolation written index by index
-//! from the two formats' definitions: `.npy` values at cell centres, held beyond the outermost; OpenVDB
-//! values at integer indices, fading to the background. Half a voxel's offset shows at once. Most voxels
-//! of one grid are empty.
+//! The colour of a block is the mean over its pixel areas of e^(−σ ∫ density ds). The column ∫ density ds is
+//! integrated along every ray of a fine raster, through a trilinear interpolation that is written index by
+//! index from the definitions of the two formats: `.npy` values at cell centres, constant beyond the
+//! outermost; OpenVDB values at integer indices, interpolated to the background. An offset of half a voxel is
+//! detected. Most voxels of one grid are empty.
 
 use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::ASIDE;
 use crate::io::Library;
-use crate::io::volume::{self, Limits};
+use crate::io::volume::{self, ReadLimits};
 use crate::scene::{DensityDoc, GridRef};
 use glam::DVec3;
 
 pub(super) const FAMILY: Family = Family {
     id: "interpolation",
-    about: "Absorption through rough grids, block by block, by quadrature along every ray.",
+    about: "Absorption through rough grids, in blocks of pixels, by quadrature along every ray.",
     deep_only: false,
     cases,
 };
 
 const LAYOUT: Layout = Layout { columns: 4, rows: 4 };
-/// Pixels of the image, and rays along a side of each pixel, that the quadrature takes.
+/// Pixels along a side of the image, and quadrature rays along a side of each pixel.
 const PIXELS: u32 = 8;
 const RAYS: u32 = 28;
 const CELLS: u32 = 100;
 
-/// Columns ∫ density ds of a raster of rays, by block.
+/// Columns ∫ density ds of a raster of rays, grouped by block.
 fn columns(density: impl Fn(DVec3) -> f64 + Sync, half: DVec3) -> Vec<Vec<f64>> {
-    // The camera of `ASIDE`, from its definition.
+    // The camera of `ASIDE`, derived from its definition.
     let origin = DVec3::new(0.9, 0.7, 2.2);
     let forward = -origin.normalize();
     let right = forward.cross(DVec3::Y).normalize();
@@ -52,7 +52,7 @@ fn columns(density: impl Fn(DVec3) -> f64 + Sync, half: DVec3) -> Vec<Vec<f64>> 
     blocks
 }
 
-/// What the film shows of these columns in RGB mode.
+/// Expected image of these columns in RGB mode.
 fn rgb(blocks: &[Vec<f64>], sigma: [f64; 3]) -> Answer {
     let colours: Vec<_> = blocks
         .iter()
@@ -61,9 +61,9 @@ fn rgb(blocks: &[Vec<f64>], sigma: [f64; 3]) -> Answer {
     Answer::blocks(&colours).within(RASTER)
 }
 
-/// The same in spectral mode.
+/// Expected image in spectral mode.
 fn spectral(blocks: &[Vec<f64>], sigma: Points) -> Answer {
-    // Transmittance is smooth in σ: tabulate it.
+    // Transmittance is smooth in σ, so that a table suffices.
     let (most, entries) = (8.0, 400);
     let table = |rays: &[f64]| -> Vec<f64> {
         (0..=entries)
@@ -87,7 +87,7 @@ fn spectral(blocks: &[Vec<f64>], sigma: Points) -> Answer {
     Answer::blocks(&colours).within(RASTER)
 }
 
-/// The raster of rays is finite: one twice as fine differs by at most 2.9·10⁻⁴ in any block.
+/// Relative error from the finite raster of rays: one twice as fine differs by at most 2.9·10⁻⁴ in any block.
 const RASTER: f64 = 4e-4;
 
 fn case(name: &str, file: &str, extinction: &str, mode: &str, fit: f64) -> Result<Case, CheckError> {
@@ -107,12 +107,12 @@ fn case(name: &str, file: &str, extinction: &str, mode: &str, fit: f64) -> Resul
         .in_blocks(LAYOUT.columns, LAYOUT.rows))
 }
 
-/// Indices beyond the ends are those of the ends.
+/// Indices beyond the ends are clamped.
 fn held(i: i64, n: i64) -> Option<i64> {
     Some(i.clamp(0, n - 1))
 }
 
-/// There is nothing beyond the ends.
+/// Indices beyond the ends have no value.
 fn fading(i: i64, n: i64) -> Option<i64> {
     (0..n).contains(&i).then_some(i)
 }
@@ -125,7 +125,7 @@ fn cell_centred(lattice: &Lattice3, half: DVec3) -> Vec<Vec<f64>> {
 fn cases() -> Result<Vec<Case>, CheckError> {
     let sigma = [1.0, 3.0, 6.0];
     let sigma_toml = "{ rgb = [1.0, 3.0, 6.0] }";
-    // The longest side becomes 1.2.
+    // The longest side is scaled to `fit`.
     let half = |size: [usize; 3], fit: f64| {
         let n = DVec3::from_array(size.map(|n| n as f64));
         n * (0.5 * fit / n.max_element())
@@ -159,9 +159,9 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .answered(rgb(&cell_centred(&sparse, half(sparse.size, 1.2)), sigma)),
     );
 
-    // An OpenVDB file: the box reaches one voxel beyond the outermost values on every side.
+    // In an OpenVDB file the box extends one voxel beyond the outermost values on every side.
     let bytes: &'static [u8] = include_bytes!("../../../../assets/volumes/tiny_instance.vdb");
-    let voxels = volume::read_volume_bytes(bytes, "tiny.vdb", Some("density"), &Limits::default());
+    let voxels = volume::read_volume_bytes(bytes, "tiny.vdb", Some("density"), &ReadLimits::default());
     let voxels = voxels
         .map_err(|e| CheckError::Reference { name: "interpolation/vdb".into(), reason: e.to_string() })?;
     let n = DVec3::from_array(voxels.size.map(|n| n as f64 + 1.0));

@@ -1,10 +1,10 @@
-//! Choosing among lights, seeing past occluders, finding a tiny sun: single scattering by quadrature.
+//! Light selection, occlusion and a tiny sun: single scattering by quadrature.
 //!
-//! The integral is that of `single_scattering.rs`. Two suns of powers 1000 and 1 shine in different
-//! channels, so that the faint one has a channel of its own in which it can be missed. A black box stands
-//! between a sun and one part of the axis. An environment map has one texel, 1/1300 of the sphere, that
-//! outshines its sky; its texels are integrated over one by one, in the directions that the format gives
-//! them: top row +y, middle column −z, columns growing towards +x from there.
+//! The integral is that of `single_scattering.rs`. Two suns of powers 1000 and 1 emit in different channels,
+//! so that a missed contribution of the faint one shows in its own channel. A black box blocks a sun from one
+//! part of the axis. An environment map has one texel, 1/1300 of the sphere, that is far brighter than its
+//! sky. Its texels are integrated one by one, in the directions defined by the format: top row +y, middle
+//! column −z, columns increasing towards +x from there.
 
 use super::super::truth;
 use super::super::{Answer, Case, CheckError, Family, Layout};
@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 
 pub(super) const FAMILY: Family = Family {
     id: "lights",
-    about: "Lights of unlike power, an occluder between, an environment map with a tiny sun.",
+    about: "Lights of different power, an occluder, an environment map with a tiny sun.",
     deep_only: false,
     cases,
 };
@@ -88,7 +88,7 @@ const SUN: (usize, usize) = (32, 15);
 const SKY_RADIANCE: f64 = 0.02;
 const SUN_RADIANCE: f64 = 800.0;
 
-/// A direction of the map, from continuous texel coordinates.
+/// Direction of continuous texel coordinates of the map.
 fn direction(x: f64, y: f64) -> DVec3 {
     let (phi, theta) = (TAU * (x / SKY.0 as f64 - 0.5), PI * y / SKY.1 as f64);
     DVec3::new(theta.sin() * phi.sin(), theta.cos(), -theta.sin() * phi.cos())
@@ -101,7 +101,7 @@ fn tiny_sun() -> Result<Case, CheckError> {
         let mut received = 0.0;
         for row in 0..SKY.1 {
             for column in 0..SKY.0 {
-                // The phase function is steep around straight ahead.
+                // The phase function is steep around the forward direction.
                 let ahead = -direction(column as f64 + 0.5, row as f64 + 0.5).z;
                 let raster = if ahead > 0.9 { 8 } else { 2 };
                 let radiance = if (column, row) == SUN { SUN_RADIANCE } else { SKY_RADIANCE };
@@ -109,7 +109,7 @@ fn tiny_sun() -> Result<Case, CheckError> {
                     * truth::integrate(raster, |v| {
                         truth::integrate(raster, |u| {
                             let omega = direction(column as f64 + u, row as f64 + v);
-                            // The solid angle per texel area shrinks towards the poles.
+                            // The solid angle per texel area decreases towards the poles.
                             let jacobian =
                                 (TAU / SKY.0 as f64) * (PI / SKY.1 as f64) * (1.0 - omega.y * omega.y).sqrt();
                             let through = (-extinction * to_face(point, omega)).exp();
@@ -140,8 +140,8 @@ fn tiny_sun() -> Result<Case, CheckError> {
     })
 }
 
-/// Diffuse ground under a lamp, behind an absorbing cube: e^(−σ) · albedo/π · ∫ L cos θ dω, the lamp seen from
-/// beside the cube.
+/// Diffuse ground under a lamp, behind an absorbing cube: e^(−σ) · albedo/π · ∫ L cos θ dω, where the rays to
+/// the lamp miss the cube.
 fn diffuse_ground() -> Result<Case, CheckError> {
     let (ground, center, radius) = (DVec3::new(0.0, 0.0, -2.0), DVec3::new(2.2, 0.3, -0.9), 0.8);
     let to = center - ground;
@@ -165,7 +165,7 @@ fn diffuse_ground() -> Result<Case, CheckError> {
     case("diffuse-ground", rest, Answer::uniform(colour, Layout::WHOLE))
 }
 
-/// A lamp in the medium that it lights: the last stretch to it counts.
+/// A lamp inside the medium that it lights: attenuation between the lamp and the scattering vertex matters.
 fn lamp_inside() -> Result<Case, CheckError> {
     let center = DVec3::new(0.28, 0.0, -0.1);
     let radius = 0.24;
@@ -199,7 +199,8 @@ fn lamp_inside() -> Result<Case, CheckError> {
 }
 
 fn cases() -> Result<Vec<Case>, CheckError> {
-    // Whoever does not connect needs thirty million paths to tell, of the tiny sun and of the lamp beside the ground.
+    // Estimators without next-event estimation need thirty million paths for the tiny sun and for the lamp
+    // beside the ground.
     Ok(vec![
         two_powers()?.among(&CONNECTING_AND_ONE),
         occluder()?.among(&CONNECTING_AND_ONE),

@@ -1,5 +1,5 @@
-//! Families of cases, one file each, the derivation of the answer at its head. A line in [`FAMILIES`]
-//! adds one: the command line, the window and the tests iterate it.
+//! Families of validation cases, one file each, with the derivation of the answer at its head. A new family
+//! is one line in [`FAMILIES`]: the command line, the window and the tests iterate over it.
 
 mod agreement;
 mod beer_lambert;
@@ -17,7 +17,7 @@ use crate::estimator::{Axis, Entry, REGISTRY};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// Every family, the quickest to understand first.
+/// All families, from the simplest to the most complex.
 pub static FAMILIES: &[Family] = &[
     furnace::FAMILY,
     beer_lambert::FAMILY,
@@ -31,40 +31,42 @@ pub static FAMILIES: &[Family] = &[
     oracle::FAMILY,
 ];
 
-/// Estimators that connect to lights.
+/// Estimators with next-event estimation.
 static CONNECTING: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.connects()).copied().collect());
 
-/// The same, and one that does not connect: for cases about phase functions and lights, on which the unidirectional
-/// estimators differ in nothing but the time that they need to tell.
+/// Estimators with next-event estimation and one without: for cases about phase functions and lights, on
+/// which the unidirectional estimators differ only in the time that they need.
 static CONNECTING_AND_ONE: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|e| e.id == "spectral-mis").chain(CONNECTING.iter()).copied().collect()
 });
 
-/// Those whose paths carry several components. An estimator that carries one at a time is noisier by the noise of colours,
-/// and is left out of cases about what it has no part in: it would take most of their time.
+/// Estimators whose paths carry several components. An estimator with one component per path has additional
+/// colour noise. It would take most of the time, and is excluded from cases about features that do not affect
+/// it.
 static SEVERAL_COMPONENTS: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.id != "independent").copied().collect());
 
-/// Those that offer a choice of how distances are drawn.
+/// Estimators with a choice of distance sampling.
 static SPLITTING: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.uses(Axis::Distances)).copied().collect());
 
-/// Those of them whose paths carry several components.
+/// Estimators of [`SPLITTING`] whose paths carry several components.
 static SPLITTING_FAMILIES: LazyLock<Vec<Entry>> =
     LazyLock::new(|| SPLITTING.iter().filter(|entry| entry.carries_family()).copied().collect());
 
-/// Walking alone, and all that there is: for cases about the medium, in which connecting alone takes long to tell.
+/// Unidirectional sampling alone and the full combination: for cases about the medium, where next-event
+/// estimation alone needs many paths.
 static WALKING_AND_ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|entry| ["spectral-mis", "uni-nee-mis"].contains(&entry.id)).copied().collect()
 });
 
-/// Those whose paths fly by the majorant of their hero: where extinctions differ a hundredfold, flights by that of the
-/// densest component take a hundred times as long to tell the same.
+/// Estimators that sample free flights by the majorant of the hero: where extinctions differ a hundredfold,
+/// free flights by the majorant of the densest component take a hundred times as long for the same result.
 static BY_HERO: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.hero_draws()).copied().collect());
 
-/// The cases of a usual look, or of a thorough one.
+/// The cases of a quick check, or of a deep one.
 ///
 /// # Errors
 /// When the program was built with a damaged case.
@@ -73,7 +75,7 @@ pub fn built_in(deep: bool) -> Result<Vec<Case>, CheckError> {
     families.map(|f| (f.cases)()).collect::<Result<Vec<_>, _>>().map(|cases| cases.concat())
 }
 
-/// The cases of a family, or the one of this name; none if there is no such.
+/// The cases of a family, or the single case with this name; empty if there is none.
 ///
 /// # Errors
 /// As [`built_in`].
@@ -86,8 +88,8 @@ pub fn named(name: &str) -> Result<Vec<Case>, CheckError> {
     Ok(cases)
 }
 
-/// A camera far away on the z axis, so narrow that all its rays are the axis: a cube about the origin is
-/// crossed from z = ½ to z = −½.
+/// A distant camera on the z axis, so narrow that all rays coincide with the axis: they cross a cube about
+/// the origin from z = ½ to z = −½.
 const AXIS: &str = "
 majorant = 1
 [camera]
@@ -99,7 +101,7 @@ width = 2
 height = 2
 ";
 
-/// A camera that looks at the origin from the side and above.
+/// A camera that views the origin from the side and above.
 const ASIDE: &str = "
 majorant = 1
 [camera]

@@ -1,34 +1,35 @@
-//! Pictures that independent renderers have made of seven scenes.
+//! Images of seven scenes from independent renderers.
 //!
-//! Their scenes, references and provenance stand in `assets/oracle`: block means of converged pictures in
-//! linear sRGB, with standard errors, and for S6 quadrature as well. S4 and S5 are one plume in RGB and in spectral mode. The others have
-//! the same coefficients at every wavelength, so their pictures hold for spectral mode too, in the colour of
-//! illuminant E instead of white. The reference of S5 was made with a table of the observer that is
-//! 0.1 % off. Where an estimator meets light rarely, blocks are larger: every batch must know its own noise.
+//! The scenes, references and their provenance are in `assets/oracle`: block means of converged images in
+//! linear sRGB with standard errors, and for S6 also by quadrature. S4 and S5 are one plume in RGB and in
+//! spectral mode. The others have the same coefficients at every wavelength, so that their images apply to
+//! spectral mode as well, in the colour of illuminant E instead of white. The reference of S5 was rendered
+//! with observer tables that are 0.1 % off. Where an estimator rarely hits a light, blocks are larger, since
+//! every batch must yield a reliable noise estimate.
 
 use super::super::{Answer, Case, CheckError, Family, Value, truth};
 use crate::estimator::REGISTRY;
-use crate::io::volume::{Limits, read_volume_bytes};
+use crate::io::volume::{ReadLimits, read_volume_bytes};
 use crate::io::{Library, scene_file};
 use crate::scene::Mode;
 
 pub(super) const FAMILY: Family = Family {
     id: "oracle",
-    about: "Pictures of seven scenes by independent renderers, block by block, within both standard errors.",
+    about: "Images of seven scenes by independent renderers, in blocks, within both standard errors.",
     deep_only: true,
     cases,
 };
 
 struct Oracle {
     name: &'static str,
-    /// The file that the answer comes from.
+    /// File with the expected image.
     file: &'static str,
     toml: &'static str,
     reference: &'static [u8],
     stderr: &'static [u8],
-    /// Blocks along a side in which it is compared.
+    /// Blocks along a side.
     side: usize,
-    /// Most paths of an estimator that rarely meets the light.
+    /// Maximum number of paths of an estimator that rarely hits a light.
     budget: Option<u64>,
 }
 
@@ -67,12 +68,12 @@ fn files() -> Library {
         .with_volume("../S6/density.npy", slab)
 }
 
-/// Block means of a picture, 16 × 16 blocks of three channels.
+/// Blocks along a side of a stored image; it has three channels.
 const BLOCKS: usize = 16;
 
 fn table(name: &str, bytes: &[u8]) -> Result<Vec<f64>, CheckError> {
     let damaged = |reason: String| CheckError::Reference { name: name.to_owned(), reason };
-    let grid = read_volume_bytes(bytes, "reference.npy", None, &Limits::default())
+    let grid = read_volume_bytes(bytes, "reference.npy", None, &ReadLimits::default())
         .map_err(|e| damaged(e.to_string()))?;
     if (grid.size, grid.channels) != ([BLOCKS, BLOCKS, 1], 3) {
         return Err(damaged(format!("{:?} × {} values", grid.size, grid.channels)));
@@ -80,7 +81,7 @@ fn table(name: &str, bytes: &[u8]) -> Result<Vec<f64>, CheckError> {
     Ok(grid.values.iter().map(|v| f64::from(*v)).collect())
 }
 
-/// Merges blocks into `side × side`; errors of independent blocks add in squares.
+/// Merges blocks into `side × side`; the errors of independent blocks add in quadrature.
 fn merged(mean: &[f64], error: &[f64], side: usize) -> Vec<Value> {
     let k = BLOCKS / side;
     let n = (k * k) as f64;
@@ -95,9 +96,9 @@ fn merged(mean: &[f64], error: &[f64], side: usize) -> Vec<Value> {
     out
 }
 
-/// In the air around the plume fewer than one path in a hundred collides, and few of those meet the key light: what
-/// they add to the sky's radiance of 0.3 is missed by blocks that look the quieter for it, and is not held
-/// against anybody.
+/// Around the plume fewer than one path in a hundred collides, and few of those reach the key light. Blocks
+/// can miss this contribution to the sky's radiance of 0.3, and then underestimate their noise; the
+/// contribution is therefore added to the error of the expected value.
 fn thin_air(value: &mut Value) {
     let added = (value.mean - 0.3).abs();
     if added < 1e-3 {
@@ -110,9 +111,9 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let mut cases = Vec::new();
     for o in ORACLES {
         let mut doc = scene_file::parse(o.toml, o.name)?;
-        // The references are means over blocks of 8 × 8 pixels: the same mean over 32 × 32 pixels.
+        // The references are means over blocks of 8 × 8 pixels, which equal the means over 32 × 32 pixels.
         (doc.film.width, doc.film.height) = (32, 32);
-        // As the power of the comparison assumes; lattices have a case of their own.
+        // Independent samples, as the power of the comparison assumes; lattices have a case of their own.
         doc.estimator.sampler = crate::math::SamplerKind::Independent;
         if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium.density
             && !grid.file.starts_with("../")
@@ -139,7 +140,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             registry: REGISTRY,
             budget: o.budget,
         };
-        // Grey: every channel has the same answer, and so has every wavelength. S2 is the slowest by far.
+        // Grey scenes have the same answer in every channel and at every wavelength. S2 is by far the
+        // slowest.
         if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5") {
             let coloured = values
                 .iter()

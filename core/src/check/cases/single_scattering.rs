@@ -4,10 +4,11 @@
 //!   L = ∫₀¹ e^(−τ(s)) μs(s) ∫ p(−z · −ω) Li(ω) e^(−τ(s, ω)) dω ds
 //! ```
 //!
-//! s runs from the cube's face down the axis, ω over the directions to the light, τ(s, ω) from the
-//! point to the cube's face. Light travels along −ω and leaves towards the camera, along +z: the phase
-//! function's cosine is −ω · z. Suns and spheres are wide here, so that paths that are scattered at random
-//! meet them; their discs are integrated over, not approximated. The camera does not see them.
+//! s runs from the face of the cube along the axis, ω over the directions to the light, and τ(s, ω) is the
+//! optical depth from the point to the face of the cube. Light propagates along −ω and leaves towards the
+//! camera, along +z: the cosine in the phase function is −ω · z. Suns and spheres are wide here, so that
+//! randomly scattered paths hit them; the quadrature integrates over their discs instead of approximating
+//! them. They are invisible to the camera.
 
 use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
@@ -18,32 +19,33 @@ use glam::DVec3;
 
 pub(super) const FAMILY: Family = Family {
     id: "single-scattering",
-    about: "One scattering from a sun or a sphere, by quadrature over the axis and the light's disc.",
+    about: "Single scattering of a sun or a sphere, by quadrature over the axis and the light's disc.",
     deep_only: false,
     cases,
 };
 
-/// Radiance from `axis ± half_angle` as seen from a point.
+/// A disc of uniform radiance, as seen from a point.
 pub(super) struct Disc {
     pub axis: DVec3,
     pub half_angle: f64,
     pub radiance: f64,
 }
 
-/// What an axis ray brings after one scattering in a homogeneous cube.
+/// A homogeneous unit cube.
 pub(super) struct Cube {
     pub extinction: f64,
     pub albedo: f64,
 }
 
 impl Cube {
-    /// The integral over the axis and over the disc that is seen from each point of it.
+    /// Single scattering along the axis, integrated over the axis and over the disc seen from each of its
+    /// points.
     pub fn single(&self, phase: impl Fn(f64) -> f64, disc: impl Fn(DVec3) -> Disc) -> f64 {
         self.single_fine((60, 16), phase, disc, |_, _| true)
     }
 
-    /// The same with a raster of one's own along the axis and across the disc, and with occluders: `lit`
-    /// says whether light arrives at a point from a direction.
+    /// As [`Self::single`], with a given raster along the axis and across the disc, and with occluders: `lit`
+    /// returns whether a point receives light from a direction.
     pub fn single_fine(
         &self,
         (along, across): (u32, u32),
@@ -65,16 +67,16 @@ impl Cube {
     }
 }
 
-/// Distance from a point in the cube to its face.
+/// Distance from a point in the cube to its face along a direction.
 pub(super) fn to_face(point: DVec3, direction: DVec3) -> f64 {
     truth::box_interval(point, direction, DVec3::ZERO, DVec3::splat(0.5)).map_or(0.0, |(_, far)| far)
 }
 
-/// Quadrature is good to this: a raster two to three times as fine in every dimension differs by at most
-/// 2.1·10⁻⁴, and by 1.1·10⁻⁴ in the rough grid.
+/// Relative error of the quadrature: a raster two to three times as fine in every dimension differs by at
+/// most 2.1·10⁻⁴, and by 1.1·10⁻⁴ in the rough grid.
 pub(super) const QUADRATURE: f64 = 3e-4;
 
-/// A sun of irradiance 2, `diameter` degrees wide.
+/// A sun of angular diameter `diameter` in degrees.
 pub(super) fn sun(toward: DVec3, diameter: f64, irradiance: f64) -> Disc {
     let half_angle = 0.5 * diameter.to_radians();
     let radiance = irradiance / (std::f64::consts::PI * half_angle.sin().powi(2));
@@ -102,7 +104,7 @@ fn case(name: &str, medium: &str, lights: &str, mode: &str, answer: Answer) -> R
     Case::new(format!("single-scattering/{name}"), &toml, answer.within(QUADRATURE))
 }
 
-/// Single scattering in a lattice over the unit cube, held beyond its outermost values.
+/// Single scattering in a lattice over the unit cube, constant beyond its outermost values.
 fn in_lattice(lattice: &Lattice3, sigma: f64, light: &Disc) -> f64 {
     let n = DVec3::from_array(lattice.size.map(|n| n as f64));
     let held = |i: i64, n: i64| Some(i.clamp(0, n - 1));
@@ -156,17 +158,19 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             });
             cases.push(by_product.among(&CONNECTING));
         }
-        // Droplets send little to the side: whoever does not connect needs a hundred million paths to tell.
+        // Droplets scatter little to the side: estimators without next-event estimation need a hundred
+        // million paths.
         cases.push(match name {
             "mie" => case.among(&CONNECTING),
             "isotropic" => case,
-            // What connects is held against these lobes by the product, too.
+            // For these lobes, estimators with next-event estimation are tested with product sampling as
+            // well.
             "hg0.9" | "hg-0.9" => case.among(&WALKING_AND_ALL),
             _ => case.among(&CONNECTING_AND_ONE),
         });
     }
 
-    // A sphere beside the cube is seen under another angle from every point.
+    // A sphere beside the cube subtends a different angle at every point.
     let center = DVec3::new(1.75, 0.3, 0.2);
     let sphere = |point: DVec3| {
         let to = center - point;
@@ -182,7 +186,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let sphere = case("sphere", medium, lamp, "rgb", Answer::uniform(single, Layout::WHOLE))?;
     cases.push(sphere.among(&CONNECTING_AND_ONE));
 
-    // A sun that fills most of the half-space: one wavelength in a path is noise enough.
+    // A sun that fills most of the half-space, since one wavelength per path is noisy enough.
     let (points, wide) = (Points(&[(430.0, 1.0), (540.0, 5.0), (620.0, 2.0)]), 150.0);
     let table: Vec<f64> = (0..=50)
         .map(|i| {
@@ -212,7 +216,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         let loose = grid.varied(format!("single-scattering/grid-majorant-{factor}"), |doc| {
             doc.medium.majorant.factor = factor;
         });
-        // Ten times too loose is ten times the null collisions, which every unidirectional walk weighs alike.
+        // A tenfold majorant has ten times the null collisions, which all unidirectional estimators weight
+        // alike.
         if factor > 2.0 { loose.among(&CONNECTING_AND_ONE) } else { loose }
     }));
     cases.push(grid);

@@ -1,9 +1,10 @@
-//! A medium that glows: thermal emission of what absorbs.
+//! Thermal emission of an absorbing medium.
 //!
-//! Kirchhoff: what absorbs σa emits σa B(T). A ray through an absorbing slab of constant temperature brings
-//! L = B (1 − e^(−τ)), as dL = σ (B − L) ds starts at 0. In surroundings of the medium's own temperature every ray
-//! brings B, however the medium scatters: emitted and absorbed are in balance everywhere. Planck's law stands below in double
-//! precision, B(λ, T) relative to 3000 K at 560 nm; surroundings have it as points every 2 nm.
+//! Kirchhoff's law: absorption σa implies emission σa B(T). A ray through an absorbing slab of constant
+//! temperature receives L = B (1 − e^(−τ)), the solution of dL = σ (B − L) ds with L = 0 at the start. In
+//! surroundings at the temperature of the medium every ray receives B for any scattering: emission and
+//! absorption balance everywhere. Planck's law is evaluated in double precision, B(λ, T) relative to 3000 K
+//! at 560 nm; the surroundings use it at points every 2 nm.
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
@@ -13,7 +14,7 @@ use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
 
 pub(super) const FAMILY: Family = Family {
     id: "thermal",
-    about: "A medium that glows: Kirchhoff's law in a slab, and in surroundings of its own temperature.",
+    about: "An emissive medium: Kirchhoff's law in a slab, and in surroundings at its own temperature.",
     deep_only: false,
     cases,
 };
@@ -69,7 +70,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         balance.varied("thermal/balance-grey", |doc| {
             doc.medium.extinction = SpectrumDoc::Constant(3.0);
         }),
-        // The surroundings as RGB mode has them; that the medium's glow is the same is what is checked.
+        // Expected colour of the surroundings in RGB mode; the case checks that the emission of the medium
+        // equals it.
         balance
             .varied("thermal/balance-rgb", |doc| doc.estimator.mode = Mode::Rgb)
             .answered(Answer::uniform(surroundings.rgb().as_dvec3().to_array(), layout)),

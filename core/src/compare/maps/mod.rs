@@ -1,4 +1,4 @@
-//! Maps: one number per pixel of a view.
+//! Maps: one scalar per pixel of a view.
 
 mod range;
 
@@ -8,25 +8,25 @@ use super::estimate::Estimate;
 use crate::measure::Region;
 use rayon::prelude::*;
 
-/// A kind of map.
+/// Definition of a map.
 #[derive(Clone, Copy, Debug)]
 pub struct Map {
-    /// Name in files and on the command line.
+    /// Id in file names and on the command line.
     pub id: &'static str,
-    /// Name on screen.
+    /// Display name.
     pub name: &'static str,
-    /// What a pixel shows, in one line. A is the view, R what it is held against, V a variance of the mean.
+    /// Definition of the value in one line. A is the view, R its reference, V a variance of the mean.
     pub formula: &'static str,
-    /// How values become colours.
+    /// Mapping from values to colours.
     pub scale: Scale,
-    /// Whether it needs something to hold the view against.
+    /// Whether it needs a reference.
     pub needs_reference: bool,
-    /// Edge of the blocks of pixels that are averaged first; 1 for single pixels.
+    /// Edge of the blocks of pixels that are averaged before evaluation; 1 for single pixels.
     pub block: usize,
     value: fn(&Pixel) -> f32,
 }
 
-/// One pixel of a view, and of what it is held against.
+/// Statistics of one pixel of a view and of its reference.
 #[derive(Default)]
 struct Pixel {
     mean: [f32; 3],
@@ -38,10 +38,10 @@ struct Pixel {
     reference_grey_variance: f32,
 }
 
-/// Relative error that single precision may leave in a mean.
+/// Relative rounding error of single precision in a mean.
 const ROUNDING: f32 = 5e-5;
 
-/// ε of relative errors: keeps dark pixels from deciding alone.
+/// ε of relative errors; prevents dark pixels from dominating.
 const EPSILON: f32 = 0.01;
 
 impl Pixel {
@@ -52,7 +52,7 @@ impl Pixel {
 
 fn z(p: &Pixel) -> f32 {
     let difference = average(p.differences());
-    // Single precision leaves so much in a mean even where there is no noise at all.
+    // Rounding error of single precision, present even without noise.
     let rounding = ROUNDING * average(p.mean).abs().max(average(p.reference).abs());
     let error = (p.grey_variance + p.reference_grey_variance + rounding * rounding).sqrt();
     if difference == 0.0 { 0.0 } else { difference / error }
@@ -62,12 +62,12 @@ fn average(values: [f32; 3]) -> f32 {
     values.iter().sum::<f32>() / 3.0
 }
 
-/// Every map, in the order that pickers show.
+/// All maps, in display order.
 pub static MAPS: &[Map] = &[
     Map {
         id: "error",
         name: "Error ±",
-        formula: "mean over channels of A − R: red is too bright, blue too dark",
+        formula: "mean over channels of A − R: red where the view is too bright, blue where it is too dark",
         scale: Scale::Diverging,
         needs_reference: true,
         block: 1,
@@ -106,7 +106,7 @@ pub static MAPS: &[Map] = &[
     Map {
         id: "z",
         name: "z: bias",
-        formula: "(A − R) / √(V_A + V_R) in grey: noise is of size 1, a bias keeps one colour. Another unbiased view will do as a reference. Skewed noise tints blue while samples are few: then blocks tell more, and the verdict takes it into account",
+        formula: "(A − R) / √(V_A + V_R) in grey: noise has standard deviation 1, a bias has one colour. Another unbiased view can serve as the reference. With few samples, skewed noise tends to blue; blocks are then more reliable, and the verdict accounts for it",
         scale: Scale::Fixed(4.0),
         needs_reference: true,
         block: 1,
@@ -115,7 +115,7 @@ pub static MAPS: &[Map] = &[
     Map {
         id: "z-blocks",
         name: "z of blocks",
-        formula: "the same for means over blocks of 8 × 8 pixels: a bias stands out eight times as much",
+        formula: "z of means over blocks of 8 × 8 pixels: the z of a bias is eight times as large",
         scale: Scale::Fixed(4.0),
         needs_reference: true,
         block: 8,
@@ -124,7 +124,7 @@ pub static MAPS: &[Map] = &[
     Map {
         id: "variance",
         name: "Variance",
-        formula: "variance of a single sample, mean over channels, by decades: what the estimator is, not how long it ran",
+        formula: "variance of a single sample, mean over channels, by decades: a property of the estimator, independent of the number of samples",
         scale: Scale::Logarithmic,
         needs_reference: false,
         block: 1,
@@ -142,7 +142,7 @@ pub static MAPS: &[Map] = &[
     Map {
         id: "samples",
         name: "Samples",
-        formula: "samples in the mean; those that were not finite are left out",
+        formula: "samples in the mean; non-finite samples are excluded",
         scale: Scale::Linear,
         needs_reference: false,
         block: 1,
@@ -159,22 +159,22 @@ pub static MAPS: &[Map] = &[
     },
 ];
 
-/// The map of that id.
+/// Map with the given id.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Map> {
     MAPS.iter().find(|m| m.id == id)
 }
 
 impl Map {
-    /// Whether it shows differences in units of their noise, for which another noisy picture will do; the others that
-    /// need a reference show errors.
+    /// Whether the map shows differences in units of their noise, for which another noisy image can serve as
+    /// the reference. The other maps with a reference show errors.
     #[must_use]
     pub fn is_test(&self) -> bool {
         matches!(self.scale, Scale::Fixed(_))
     }
 
-    /// Its values, row by row; NaN where there is none. Empty if the map needs a reference and there is none
-    /// of the same size.
+    /// Values of a view, row by row; NaN where undefined. Empty if the map needs a reference and there is
+    /// none of the same size.
     #[must_use]
     pub fn values(&self, view: &Estimate<'_>, reference: Option<&Estimate<'_>>) -> Vec<f32> {
         let size = |e: &Estimate<'_>| (e.picture.width, e.picture.height);
@@ -192,7 +192,7 @@ impl Map {
             .collect()
     }
 
-    /// The value of every block's mean, in each of its pixels.
+    /// Evaluates the map on the mean of every block and assigns the value to its pixels.
     fn of_blocks(&self, view: &Estimate<'_>, reference: Option<&Estimate<'_>>) -> Vec<f32> {
         let (width, height) = (view.picture.width, view.picture.height);
         let mut values = vec![f32::NAN; width * height];
@@ -210,7 +210,7 @@ impl Map {
     }
 }
 
-/// The mean of independent pixels, as one; those without a value are left out.
+/// Mean of independent pixels as one pixel; non-finite pixels are excluded.
 fn mean(pixels: impl Iterator<Item = Pixel>) -> Pixel {
     let mut sum = Pixel::default();
     let mut n = 0.0;
@@ -247,7 +247,7 @@ fn pixel(view: &Estimate<'_>, reference: Option<&Estimate<'_>>, i: usize) -> Pix
     let grey_variance = |e: &Estimate<'_>| {
         let chroma = e.noise.and_then(|n| n.get(i)).map_or(0.0, |n| n.chroma_variance);
         let grey = average(variance(e)) - chroma;
-        // `max` would take what is unknown, below two samples, for no noise.
+        // `max` would turn NaN, below two samples, into zero noise.
         if grey.is_nan() { grey } else { grey.max(0.0) }
     };
     let noise = view.noise.and_then(|n| n.get(i));

@@ -1,41 +1,41 @@
-//! From values to colours, and back for legends.
+//! Mapping from values to colours, and its inverse for legends.
 //!
-//! Colours are perceptually uniform and safe for colour-blind eyes: Viridis for amounts, red to blue around
-//! white for differences (red: too bright).
+//! The colour maps are perceptually uniform and suitable for colour-vision deficiencies: Viridis for
+//! magnitudes, red to blue around white for differences (red: too bright).
 
 use colorous::Gradient;
 
-/// How values become colours.
+/// Mapping from values to colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
-    /// From 0.
+    /// Linear from 0.
     Linear,
-    /// By decades.
+    /// Logarithmic.
     Logarithmic,
-    /// Around 0, to both sides alike.
+    /// Symmetric around 0.
     Diverging,
-    /// Around 0, from −`.0` to `.0` whatever the values are.
+    /// Around 0, from −`.0` to `.0`, independent of the values.
     Fixed(f32),
 }
 
-/// The values that the ends of a map's colours stand for.
+/// Range of values that the colour map covers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The lowest.
+    /// Lowest value.
     pub lo: f32,
-    /// The highest.
+    /// Highest value.
     pub hi: f32,
-    /// How values between them become colours.
+    /// Mapping of values in between.
     pub scale: Scale,
 }
 
-/// A few pixels may leave the range; they show as its ends.
+/// Fraction of the values inside the range; the others are clamped.
 const INSIDE: f64 = 0.98;
-/// A range by decades holds at most so many.
+/// Maximum number of decades of a logarithmic range.
 const DECADES: i32 = 4;
 
 impl Range {
-    /// A range that suits the values of several views at once, so that their colours can be compared.
+    /// Common range of several views, so that their colours are comparable.
     #[must_use]
     pub fn of<'a>(scale: Scale, values: impl Iterator<Item = &'a [f32]>) -> Self {
         if let Scale::Fixed(end) = scale {
@@ -56,7 +56,7 @@ impl Range {
         }
     }
 
-    /// Where a value lies in the range, from 0 to 1; what is not a number lies nowhere.
+    /// Position of a value in the range, from 0 to 1; `None` for NaN.
     #[must_use]
     pub fn position(&self, value: f32) -> Option<f32> {
         let share = match self.scale {
@@ -67,7 +67,7 @@ impl Range {
         (!share.is_nan()).then(|| share.clamp(0.0, 1.0))
     }
 
-    /// The value at a position from 0 to 1.
+    /// Value at a position from 0 to 1.
     #[must_use]
     pub fn value(&self, position: f32) -> f32 {
         match self.scale {
@@ -76,7 +76,7 @@ impl Range {
         }
     }
 
-    /// The colour at a position from 0 to 1.
+    /// Colour at a position from 0 to 1.
     #[must_use]
     pub fn colour(&self, position: f32) -> [u8; 3] {
         let position = f64::from(position);
@@ -89,7 +89,7 @@ impl Range {
         [colour.r, colour.g, colour.b]
     }
 
-    /// The colour of a value; what is not a number shows magenta, which is in neither scale.
+    /// Colour of a value; NaN is magenta, which is in neither colour map.
     #[must_use]
     pub fn paint(&self, value: f32) -> [u8; 3] {
         self.position(value).map_or([255, 0, 255], |position| self.colour(position))
@@ -114,7 +114,7 @@ mod tests {
         let (red, blue) = (range.paint(4.0), range.paint(-4.0));
         assert!(red[0] > red[2] && blue[2] > blue[0]);
         assert_eq!(range.paint(f32::NAN), [255, 0, 255]);
-        // Nothing to show at all.
+        // No values.
         assert_eq!(
             Range::of(Scale::Diverging, std::iter::empty()).paint(0.0),
             Range::of(Scale::Linear, std::iter::empty()).paint(0.0)

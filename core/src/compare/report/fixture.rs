@@ -1,4 +1,4 @@
-//! A small comparison, rendered for real: two that agree and one whose majorant is clamped.
+//! A small rendered comparison: two views that agree and one with a clamped majorant.
 #![allow(clippy::unwrap_used, reason = "only tests use it")]
 
 use crate::compare::{Experiment, run};
@@ -29,7 +29,7 @@ const SCENE: &str = "
     majorant = { factor = 0.5, when_exceeded = \"clamp\" }
     seed = 2";
 
-/// The document, titled, with a reference that is rendered.
+/// The document with a title and a rendered reference.
 pub fn doc(title: &str) -> SceneDoc {
     let mut doc = scene_file::parse(SCENE, "the fixture").unwrap();
     doc.title = title.into();
@@ -38,7 +38,7 @@ pub fn doc(title: &str) -> SceneDoc {
     doc
 }
 
-/// The comparison at its end.
+/// The finished comparison.
 pub fn experiment(title: &str) -> Experiment {
     run(&doc(title), Library::default(), |_| {}).unwrap().experiment
 }

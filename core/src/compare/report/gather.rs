@@ -1,4 +1,4 @@
-//! Everything that a report tells, computed once.
+//! Data of a report, computed once for all formats.
 
 use crate::compare::curve::{Axis, Checkpoint, Point};
 use crate::compare::maps::{MAPS, Map, Range};
@@ -7,27 +7,27 @@ use crate::measure::{self, MEASURES, Measure};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// A comparison with its numbers.
+/// A comparison with its statistics.
 pub(super) struct Gathered<'a> {
     pub experiment: &'a Experiment,
-    /// With every measure, in the order of the views.
+    /// Standings with every measure, in the order of the views.
     pub standings: Vec<Standing>,
-    /// The views that have a standing, in the same order.
+    /// Views that have a standing, in the same order.
     pub views: Vec<Shown<'a>>,
-    /// The maps that some view has, each with the range that all views share.
+    /// Maps that some view has, each with the common range of all views.
     pub maps: Vec<(&'static Map, Range)>,
-    /// The measure that the comparison is about.
+    /// Selected measure of the comparison.
     pub measure: &'static Measure,
 }
 
-/// A view as it is shown.
+/// A view with its maps and curves.
 pub(super) struct Shown<'a> {
     pub view: &'a View,
-    /// `A-nee`: its name in files.
+    /// Name in files, e.g. `A-nee`.
     pub name: String,
-    /// The maps that it has.
+    /// Maps that it has.
     pub maps: Vec<(&'static Map, Vec<f32>)>,
-    /// Its error curve by every measure that is followed.
+    /// Error curves by measure.
     pub curves: Vec<(&'static Measure, Vec<Point>)>,
 }
 
@@ -46,17 +46,17 @@ impl<'a> Gathered<'a> {
         Self { experiment, standings, views, maps, measure }
     }
 
-    /// The reference that all views share, if there is one.
+    /// Reference shared by all views, if there is one.
     pub fn reference(&self) -> Option<&Reference> {
         self.experiment.reference.as_deref()
     }
 
-    /// What the views were held against, in words.
+    /// Display text for the image that the views were compared with.
     pub fn held_against(&self) -> String {
         match (self.reference(), self.standings.iter().find(|s| !matches!(s.against, Against::Nothing(_)))) {
             (Some(reference), _) => reference.origin.clone(),
             (None, Some(_)) if self.experiment.has_errors() => {
-                "for every view the mean of the other unbiased views, whose noise is taken off".into()
+                "for every view the mean of the other unbiased views, corrected for its noise".into()
             }
             (None, Some(_)) => {
                 "for every view the mean of the other unbiased views; verdicts only, as errors need a reference".into()
@@ -76,11 +76,11 @@ impl<'a> Shown<'a> {
             let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference(map))));
             values.filter(|(_, values)| values.iter().any(|v| v.is_finite())).collect()
         });
-        // A curve ends with what the table says, however near the last checkpoint is.
+        // The last point of a curve equals the table, however near the last checkpoint is.
         let last = view.checkpoints.kept().last().is_none_or(|c| c.spp < view.snapshot.spp);
         let last = last.then(|| Arc::new(Checkpoint::of(&view.snapshot)));
-        // FLIP looks at every pixel's neighbourhood under many exposures: once per view is enough, unless the
-        // comparison is about it.
+        // FLIP evaluates the neighbourhood of every pixel at many exposures: once per view is enough, unless
+        // it is the selected measure.
         let chosen = &experiment.doc.compare.measure.0;
         let followed = MEASURES.iter().filter(|m| m.id != "flip" || m.id == chosen);
         let curves = followed.map(|measure| {
@@ -98,12 +98,12 @@ impl<'a> Shown<'a> {
         }
     }
 
-    /// The values of a map, if the view has it.
+    /// Values of a map, if the view has it.
     pub fn map(&self, map: &Map) -> Option<&[f32]> {
         self.maps.iter().find(|(m, _)| m.id == map.id).map(|(_, values)| values.as_slice())
     }
 
-    /// Its error curve by a measure, as far as it can be drawn by decades.
+    /// Error curve by a measure, restricted to points with positive coordinates.
     pub fn curve(&self, measure: &Measure, axis: Axis) -> Vec<Point> {
         let points = self.curves.iter().find(|(m, _)| m.id == measure.id).map(|(_, p)| p.as_slice());
         let drawable = |p: &&Point| p.value > 0.0 && p.value.is_finite() && p.at(axis) > 0.0;
@@ -111,7 +111,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-/// The range of a map over all views that have it.
+/// Common range of a map over all views that have it.
 fn range(map: &Map, views: &[Shown<'_>]) -> Option<Range> {
     let values: Vec<&[f32]> = views.iter().filter_map(|v| v.map(map)).collect();
     (!values.is_empty()).then(|| Range::of(map.scale, values.into_iter()))

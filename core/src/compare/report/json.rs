@@ -1,4 +1,4 @@
-//! Everything that a report tells, for scripts.
+//! JSON output of a report.
 
 use super::gather::Gathered;
 use super::{Formats, ReportError, row};
@@ -7,7 +7,7 @@ use crate::io::scene_file;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The document as text.
+/// Serialises the report.
 pub(super) fn document(gathered: &Gathered<'_>, what: &Formats) -> Result<String, ReportError> {
     let failed = |e| ReportError::write(Path::new("compare.json"), e);
     let experiment = gathered.experiment;

@@ -1,4 +1,4 @@
-//! One EXR with a layer for every view and one for the reference.
+//! One EXR file with a layer for every view and one for the reference.
 
 use super::ReportError;
 use super::gather::{Gathered, Shown};
@@ -10,12 +10,12 @@ use std::path::Path;
 
 type Channels = SmallVec<[AnyChannel<FlatSamples>; 4]>;
 
-/// Writes R, G, B, `stderr.R/G/B` and `map.ID` of every view, `A-nee` by name, and the picture and standard
-/// error of the reference. Every layer says how it was made, as JSON in the attribute `majorant`.
+/// Writes R, G, B, `stderr.R/G/B` and `map.ID` of every view, in a layer named e.g. `A-nee`, and the image
+/// and standard error of the reference. Every layer has its metadata as JSON in the attribute `majorant`.
 pub(super) fn write(gathered: &Gathered<'_>, path: &Path) -> std::result::Result<(), ReportError> {
     let mut layers: Vec<Layer<AnyChannels<FlatSamples>>> = gathered.views.iter().map(view).collect();
     layers.extend(gathered.reference().map(reference));
-    // Readers that know of one picture only take the first layer and the size of the display window.
+    // Readers without support for layers use the first layer and the size of the display window.
     let size = layers.first().map_or(Vec2(1, 1), |l| l.size);
     let attributes = ImageAttributes::new(IntegerBounds::from_dimensions(size));
     let image = Image { attributes, layer_data: layers.into() };
@@ -99,7 +99,7 @@ mod tests {
             assert_eq!(channel("map.z"), shown.map(z).unwrap());
             assert_eq!(channel("stderr.B").len(), red.len());
         }
-        // The first layer is a picture with its noise to whoever knows of one only.
+        // Readers without support for layers see the first layer as an image with its noise.
         let first = crate::io::picture::read_estimate(&path).unwrap();
         assert_eq!(first.picture.pixels, experiment.views[0].1.snapshot.mean);
         assert!(first.metadata.unwrap().contains("spectral-mis"));

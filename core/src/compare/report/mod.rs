@@ -1,4 +1,4 @@
-//! A comparison as files: pictures, maps, tables, curves, and a page that shows them.
+//! Output of a comparison as files: images, maps, tables, curves, and an HTML page.
 //!
 //! ```text
 //!   Experiment ──► Gathered (ranking, maps, ranges, curves) ──┬─► A-nee.png, A-nee.z.png, A-nee.exr
@@ -6,7 +6,7 @@
 //!                                                             └─► compare.json, scene.toml, index.html
 //! ```
 //!
-//! One format is one file of this room. Everything is written from the same numbers.
+//! Each format is one file of this module. All formats use the same data.
 
 mod gather;
 mod json;
@@ -32,23 +32,23 @@ pub use row::{Row, rows};
 use std::path::{Path, PathBuf};
 pub(crate) use tables::{cell, text as csv_text};
 
-/// Why a report could not be written.
+/// Reason why a report could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The folder or a file in it could not be written.
     #[error("{path} could not be written: {reason}. Choose another folder, or free some space.")]
     Write {
-        /// The folder or file.
+        /// Folder or file.
         path: String,
-        /// What the system said.
+        /// Error of the operating system.
         reason: String,
     },
-    /// A picture could not be written.
+    /// An image could not be written.
     #[error(transparent)]
     Export(#[from] ExportError),
-    /// No view has a picture with noise that is known.
+    /// No view has an image with known noise.
     #[error(
-        "there is nothing to report yet: every view needs at least {} samples per pixel",
+        "the report would be empty: every view needs at least {} samples per pixel",
         super::LEAST_SAMPLES
     )]
     Nothing,
@@ -60,12 +60,12 @@ impl ReportError {
     }
 }
 
-/// What of a report is written, and what it tells beyond the numbers.
+/// Selection of output formats, and additional information for the report.
 #[derive(Clone, Debug, Default)]
 pub struct Formats {
-    /// A PNG of every view, of each of its maps, and of the reference; an EXR of every view.
+    /// PNG files of every view, its maps, and the reference; EXR files of every view.
     pub pictures: bool,
-    /// `compare.exr`: everything in the layers of one file.
+    /// `compare.exr`, with all images as layers.
     pub layers: bool,
     /// `ranking.csv` and `curves.csv`.
     pub tables: bool,
@@ -73,37 +73,37 @@ pub struct Formats {
     pub json: bool,
     /// `index.html`.
     pub page: bool,
-    /// The command that made it, if it was one.
+    /// Command line that created the comparison, if there was one.
     pub command: Option<String>,
-    /// What else wants to be known, a sentence each.
+    /// Further notes, one sentence each.
     pub notes: Vec<String>,
 }
 
 impl Formats {
-    /// Everything.
+    /// All formats.
     #[must_use]
     pub fn all() -> Self {
         Self { pictures: true, layers: true, tables: true, json: true, page: true, ..Self::default() }
     }
 }
 
-/// Makes the folder of a report; asked before anything is rendered.
+/// Creates the folder of a report and checks that it is writable. Called before rendering.
 ///
 /// # Errors
-/// When it cannot be made, or nothing can be written into it.
+/// When it cannot be created or is not writable.
 pub fn make_folder(dir: &Path) -> Result<(), ReportError> {
     std::fs::create_dir_all(dir).map_err(|e| ReportError::write(dir, e))?;
-    // Permission to make a folder is not permission to write into one that is there.
+    // An existing folder may be write-protected.
     let probe = dir.join(".majorant");
     std::fs::write(&probe, [])
         .and_then(|()| std::fs::remove_file(&probe))
         .map_err(|e| ReportError::write(dir, e))
 }
 
-/// Writes a report into a folder, and always `scene.toml`, the scene that repeats it. Returns the files.
+/// Writes a report into a folder, always with `scene.toml`, which reproduces it. Returns the files.
 ///
 /// # Errors
-/// When the folder cannot be made or a file not written, or no view has three samples per pixel.
+/// When the folder cannot be created, a file cannot be written, or no view has three samples per pixel.
 pub fn write(experiment: &Experiment, dir: &Path, what: &Formats) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let gathered = Gathered::of(experiment);
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_report_holds_what_was_asked_for() {
+    fn a_report_contains_the_requested_formats() {
         let experiment = fixture::experiment("A cloud");
         let folder = tempfile::tempdir().unwrap();
         let dir = folder.path().join("new").join("report");
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_cannot_be_is_named() {
+    fn an_impossible_folder_is_named() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("file");
         std::fs::write(&file, "x").unwrap();

@@ -1,4 +1,4 @@
-//! The page that shows a comparison: one HTML file that needs nothing else.
+//! HTML page of a comparison: one self-contained file.
 
 mod context;
 mod gallery;
@@ -10,19 +10,19 @@ use super::{Formats, ReportError};
 use minijinja::Environment;
 use std::path::Path;
 
-/// The page with its style and its script; every value that goes into it is escaped.
+/// Template with style and script; every inserted value is escaped.
 const TEMPLATE: &str = include_str!("../../../../assets/report.html");
 
-/// The page as text.
+/// Renders the page.
 pub(super) fn render(gathered: &Gathered<'_>, what: &Formats) -> Result<String, ReportError> {
     let failed = |e: &dyn std::fmt::Display| ReportError::write(Path::new("index.html"), e);
     let mut environment = Environment::new();
-    // The ending of the name is what turns escaping on.
+    // The extension of the template name enables escaping.
     environment.add_template("report.html", TEMPLATE).map_err(|e| failed(&e))?;
     let context = context::Context::of(gathered, what).map_err(|e| failed(&e))?;
     let context = minijinja::Value::from(minijinja::value::Serde(context));
     let page = environment.get_template("report.html").and_then(|t| t.render(context));
-    // What went wrong in a template is in the chain of causes.
+    // The chain of causes contains the template error.
     page.map_err(|e| failed(&format!("{e:#}")))
 }
 
@@ -41,14 +41,14 @@ mod tests {
         (experiment, page)
     }
 
-    /// The values of an attribute, wherever it stands.
+    /// Values of an attribute throughout the page.
     fn attributes<'a>(page: &'a str, name: &str) -> Vec<&'a str> {
         let opening = format!(" {name}=\"");
         page.split(&opening).skip(1).filter_map(|rest| rest.split('"').next()).collect()
     }
 
     #[test]
-    fn it_needs_no_network_and_escapes_what_people_wrote() {
+    fn it_needs_no_network_and_escapes_user_text() {
         let (_, page) = page();
         for name in ["src", "href", "srcset", "data", "action"] {
             for value in attributes(&page, name) {
@@ -84,7 +84,7 @@ mod tests {
             assert!(page.contains(&words::quantity(relmse.corrected(), relmse.uncertainty())));
         }
         let images: Vec<&str> = attributes(&page, "src");
-        // Three pictures and the reference, and every map of every view.
+        // Three images and the reference, and every map of every view.
         let maps: usize = gathered.views.iter().map(|v| v.maps.len()).sum();
         assert_eq!(images.len(), 4 + maps);
         assert!(maps >= 3 * 9);
@@ -94,7 +94,7 @@ mod tests {
             let decoded = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png).unwrap();
             assert_eq!((decoded.width(), decoded.height()), (24, 16));
         }
-        // Every picture says what it is to those who cannot see it.
+        // Every image has an alternative text.
         assert_eq!(page.matches("<img ").count(), attributes(&page, "alt").len());
         assert!(attributes(&page, "alt").iter().all(|alt| alt.len() > 10));
         assert!(page.matches("<svg").count() >= 2 && page.contains("−1"));

@@ -1,4 +1,4 @@
-//! PNGs of views as shown and of their maps, EXRs of views.
+//! Image files: PNGs of views and maps, EXRs of views.
 
 use super::ReportError;
 use super::gather::{Gathered, Shown};
@@ -10,7 +10,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::path::{Path, PathBuf};
 
-/// Writes every picture of a comparison into a folder.
+/// Writes all images of a comparison into a folder.
 pub(super) fn write(
     gathered: &Gathered<'_>,
     dir: &Path,
@@ -40,19 +40,19 @@ pub(super) fn write(
     Ok(())
 }
 
-/// A view as shown.
+/// PNG of a view as displayed.
 pub(super) fn picture(view: &Shown<'_>) -> Result<Vec<u8>, String> {
     let snapshot = &view.view.snapshot;
     shown(&snapshot.mean, (snapshot.width, snapshot.height), &view.view.doc.view)
 }
 
-/// The reference as the scene is shown, if there is one.
+/// PNG of the reference with the view settings of the scene, if there is a reference.
 pub(super) fn reference(gathered: &Gathered<'_>) -> Option<Result<Vec<u8>, String>> {
     let reference = gathered.reference()?;
     Some(shown(reference.mean(), (reference.width, reference.height), &gathered.experiment.doc.view))
 }
 
-/// A map of a view in its colours, if the view has it.
+/// PNG of a map of a view, if the view has it.
 pub(super) fn painted(view: &Shown<'_>, map: &Map, range: &Range) -> Option<Result<Vec<u8>, String>> {
     let values = view.map(map)?;
     let snapshot = &view.view.snapshot;
@@ -64,13 +64,13 @@ fn shown(pixels: &[[f32; 3]], size: (usize, usize), view: &ViewDoc) -> Result<Ve
     encode(&rgb(pixels, view), size)
 }
 
-/// Linear radiance in the colours of a display, three bytes a pixel.
+/// Converts linear radiance to display colours, three bytes per pixel.
 pub(crate) fn rgb(pixels: &[[f32; 3]], view: &ViewDoc) -> Vec<u8> {
     let display = DisplayTransform::new(view);
     pixels.iter().flat_map(|p| display.encode(*p)).collect()
 }
 
-/// A PNG of three bytes a pixel.
+/// Encodes a PNG from three bytes per pixel.
 pub(crate) fn encode(bytes: &[u8], (width, height): (usize, usize)) -> Result<Vec<u8>, String> {
     let mut png = Vec::new();
     PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)

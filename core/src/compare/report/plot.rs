@@ -1,4 +1,4 @@
-//! Error against samples or seconds, by decades, as SVG.
+//! Log-log SVG plots of error against samples or seconds.
 
 use super::gather::Gathered;
 use super::words;
@@ -7,19 +7,19 @@ use crate::compare::view_colour;
 use plotters::prelude::*;
 use serde::Serialize;
 
-/// The colour of a view, by its place.
+/// Colour of a view, by its index.
 fn colour(place: usize) -> RGBColor {
     let [r, g, b] = view_colour(place);
     RGBColor(r, g, b)
 }
 
-/// The same for style sheets.
+/// Colour of a view in CSS notation.
 pub(super) fn css_colour(place: usize) -> String {
     let RGBColor(r, g, b) = colour(place);
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Stand for what the page colours itself, light or dark.
+/// Placeholder colours that are replaced by the colours of the page, light or dark.
 const INK: RGBColor = RGBColor(1, 2, 3);
 const RULE: RGBColor = RGBColor(4, 5, 6);
 
@@ -29,7 +29,7 @@ pub(super) struct Plot {
     pub axis: &'static str,
     pub svg: String,
     pub legend: Vec<Entry>,
-    /// What the dashed line is.
+    /// Description of the dashed line.
     pub guide: String,
 }
 
@@ -39,13 +39,13 @@ pub(super) struct Entry {
     pub label: String,
     pub name: String,
     pub colour: String,
-    /// The fitted slope in words.
+    /// The fitted slope as text.
     pub slope: String,
 }
 
 const SIZE: (u32, u32) = (560, 380);
 
-/// Draws the error of every view along an axis; `None` below two points.
+/// Draws the error of every view along an axis; `None` if no curve has two points.
 pub(super) fn plot(gathered: &Gathered<'_>, axis: Axis) -> Option<Plot> {
     let curves: Vec<Vec<Point>> = gathered.views.iter().map(|v| v.curve(gathered.measure, axis)).collect();
     if curves.iter().all(|c| c.len() < 2) {
@@ -79,7 +79,7 @@ fn slope(law: &PowerLaw) -> String {
     format!("{:.places$}{error}", law.slope).replace('-', "−")
 }
 
-/// A range around some values, with a margin.
+/// Range of positive values, with a margin.
 fn around(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let (lo, hi) = values.fold((f64::INFINITY, 0.0f64), |(lo, hi), x| (lo.min(x), hi.max(x)));
     (lo.is_finite() && hi > 0.0).then(|| {
@@ -88,7 +88,7 @@ fn around(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// Ticks of a logarithmic axis: decades, and in between 2 and 5 where few decades fit.
+/// Ticks of a logarithmic axis: decades, and 2 and 5 in between on short axes.
 fn ticks((lo, hi): (f64, f64)) -> Vec<f64> {
     let decades = lo.log10().floor() as i32..=hi.log10().ceil() as i32;
     let few = (hi / lo).log10() < 2.5;
@@ -124,7 +124,7 @@ fn draw(svg: &mut String, curves: &[Vec<Point>], gathered: &Gathered<'_>, axis: 
         .y_label_formatter(&|y| words::tick(*y))
         .draw()
         .ok()?;
-    // The guide starts where the first curve does.
+    // The guide starts at the first point of the first curve.
     let first = curves.iter().find_map(|c| c.first())?;
     let law = |along: f64| first.value * (along / first.at(axis)).powf(gathered.measure.slope);
     let steps = (0..=60).map(|i| x.0 * (x.1 / x.0).powf(f64::from(i) / 60.0));

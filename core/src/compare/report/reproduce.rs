@@ -1,12 +1,12 @@
-//! The command that repeats a view's picture, bit by bit.
+//! Command line that reproduces the image of a view exactly.
 
 use super::gather::Shown;
 use super::words::quoted;
 use crate::scene::{Limits, SceneDoc};
 use std::collections::BTreeMap;
 
-/// `majorant render scene.toml …` for the picture of a view as it is. `None` if the view leaves out what the
-/// scene has, which no option can undo.
+/// `majorant render scene.toml …` for the image of a view. `None` if the view lacks a value of the scene,
+/// which no option can remove.
 pub(super) fn command(view: &Shown<'_>, scene: &SceneDoc) -> Option<String> {
     let (doc, snapshot) = (&view.view.doc, &view.view.snapshot);
     let mut words = vec!["majorant render scene.toml".to_owned()];
@@ -25,7 +25,7 @@ pub(super) fn command(view: &Shown<'_>, scene: &SceneDoc) -> Option<String> {
     Some(words.join(" "))
 }
 
-/// Every value of a document by its dotted key, limits left out.
+/// Every value of a document by its dotted key, without limits.
 fn keys(doc: &SceneDoc) -> Option<BTreeMap<String, toml::Value>> {
     let mut doc = doc.clone();
     doc.render.set_limits(Limits::default());
@@ -55,7 +55,7 @@ mod tests {
     use crate::compare::report::gather::Gathered;
 
     #[test]
-    fn a_view_is_repeated_by_what_it_has_of_its_own() {
+    fn a_view_is_reproduced_by_its_differences_from_the_scene() {
         let mut experiment = fixture::experiment("A cloud");
         let gathered = Gathered::of(&experiment);
         let commands: Vec<_> = gathered.views.iter().map(|v| command(v, &experiment.doc).unwrap()).collect();

@@ -1,4 +1,4 @@
-//! A line of the table as data: what scripts read.
+//! A line of the ranking as data for scripts.
 
 use super::words;
 use crate::compare::{Experiment, Standing};
@@ -6,61 +6,61 @@ use crate::measure::{self, Measured};
 use crate::scene::Mode;
 use serde::Serialize;
 
-/// One view's numbers. What is not finite is written as null.
+/// Statistics of one view. Non-finite values are written as null.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// The estimator's id.
+    /// Estimator id.
     pub estimator: String,
     /// A, B, C, …
     pub label: String,
     /// Samples per pixel.
     pub spp: u64,
-    /// CPU seconds of path tracing, all workers together.
+    /// CPU seconds of path tracing, summed over all worker threads.
     pub seconds: f64,
-    /// Seconds of rendering.
+    /// Wall-clock seconds of rendering.
     pub wall_seconds: f64,
     /// Look-ups of the medium.
     pub lookups: u64,
     /// Look-ups per path.
     pub lookups_per_path: f64,
-    /// Relative mean squared error, without what the reference's noise adds to it.
+    /// Relative mean squared error, corrected for the noise of the reference.
     pub relmse: Option<f64>,
-    /// Variance of a pixel's mean, over pixels and channels.
+    /// Variance of the mean of a pixel, averaged over pixels and channels.
     pub variance: f64,
-    /// The part of it that is colour noise.
+    /// Component of `variance` that is colour noise.
     pub chroma_variance: f64,
     /// 1 / (variance · CPU seconds).
     pub efficiency: f64,
-    /// Efficiency over that of the baseline.
+    /// Efficiency relative to the baseline.
     pub speedup: f64,
-    /// Its 95 % interval.
+    /// 95 % interval of `speedup`.
     pub speedup_ci: [f64; 2],
     /// z of the difference of the means over the region.
     pub bias_z: Option<f64>,
-    /// The probability that chance alone makes some part of the picture differ as much.
+    /// Probability that some block of the image differs as much by chance.
     pub p: Option<f64>,
     /// `agrees`, `biased` or `undecided`.
     pub verdict: String,
-    /// What it was held against, in words.
+    /// Display text for the image that it was compared with.
     pub against: String,
-    /// Why it is biased by a choice of its document, if it is.
+    /// Reason why a setting of its document biases it, if so.
     pub declared_bias: Option<&'static str>,
-    /// Selects its random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// What a path's components stand for.
+    /// Spectral or RGB mode.
     pub mode: Mode,
     /// Pixels without a finite value.
     pub excluded: u64,
 }
 
-/// The lines of a comparison's table, in the order of the views.
+/// Lines of the ranking of a comparison, in the order of the views.
 #[must_use]
 pub fn rows(experiment: &Experiment) -> Vec<Row> {
     let standings = experiment.rank(measure::find("relmse").into_iter().collect());
     of_standings(experiment, &standings)
 }
 
-/// The lines of a table that was computed already.
+/// Converts existing standings to lines.
 pub(crate) fn of_standings(experiment: &Experiment, standings: &[Standing]) -> Vec<Row> {
     let row = |s: &Standing| {
         let doc = &experiment.views.iter().find(|(_, v)| v.label == s.label)?.1.doc;

@@ -5,7 +5,8 @@ use super::{ReportError, row};
 use crate::measure::MEASURES;
 use std::path::Path;
 
-/// One line per view: its row and every measure with its standard error and what the reference adds to it.
+/// One line per view: its row, and every measure with its standard error and the contribution of the
+/// reference noise.
 pub(super) fn ranking(gathered: &Gathered<'_>) -> Result<String, ReportError> {
     let mut heading: Vec<String> = [
         "label",
@@ -101,14 +102,14 @@ pub(super) fn curves(gathered: &Gathered<'_>) -> Result<String, ReportError> {
     text(table)
 }
 
-/// A number in full precision; nothing for what is none.
+/// Formats a number in full precision; empty if it is missing or not finite.
 pub(crate) fn cell(value: impl Into<Option<f64>>) -> String {
     value.into().filter(|x| x.is_finite()).map_or_else(String::new, |x| x.to_string())
 }
 
-/// Lines with commas between their cells.
+/// Formats lines as CSV.
 pub(crate) fn text(lines: Vec<Vec<String>>) -> Result<String, ReportError> {
-    // Writing to memory fails for no reason that a person could cure; if it does, it is said all the same.
+    // Writing to memory does not fail in practice; an error is reported nevertheless.
     let failed = |e: &dyn std::fmt::Display| ReportError::write(Path::new("the table"), e);
     let mut writer = csv::Writer::from_writer(Vec::new());
     for line in lines {
@@ -148,7 +149,7 @@ mod tests {
         let points: usize = gathered.views.iter().map(|v| v.curves[0].1.len()).sum();
         assert!(points >= 9);
         assert_eq!(lines.len(), points * (MEASURES.len() - 1));
-        // Every curve ends with the table's picture.
+        // Every curve ends with the image of the table.
         let last = lines.iter().rfind(|l| &l[0] == "A" && &l[4] == "relmse").unwrap();
         assert_eq!(&last[1], "8");
         let error = gathered.standings[0].error("relmse").unwrap().corrected();

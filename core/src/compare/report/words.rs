@@ -1,8 +1,8 @@
-//! Numbers and verdicts in words, the same in tables, pages and windows.
+//! Text formatting of numbers and verdicts, common to tables, pages and windows.
 
 use crate::compare::{Against, Standing, Verdict};
 
-/// The digits of an exponent.
+/// Exponent in superscript digits.
 fn superscript(exponent: i32) -> String {
     let digit = |c: char| match c {
         '-' => '⁻',
@@ -20,20 +20,20 @@ pub fn power_of_ten(exponent: i32) -> String {
     format!("10{}", superscript(exponent))
 }
 
-/// The exponent of the first digit, once rounded to three.
+/// Decimal exponent of a number rounded to three digits.
 fn exponent(x: f64) -> i32 {
     format!("{:.2e}", x.abs()).split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
 }
 
-/// Exponents that are written out as zeros.
+/// Range of exponents for which positional notation is used.
 const PLAIN: std::ops::RangeInclusive<i32> = -3..=4;
 
-/// A minus that is as wide as a plus.
+/// Replaces the hyphen by a minus sign, which is as wide as a plus.
 fn signed(text: String) -> String {
     text.replace('-', "−")
 }
 
-/// A number of three digits: `0.0123`, `12 300`, `1.23 × 10⁻⁵`; `–` for what is none.
+/// A number with three digits: `0.0123`, `12 300`, `1.23 × 10⁻⁵`; `–` for NaN.
 #[must_use]
 pub fn number(x: f64) -> String {
     if !x.is_finite() {
@@ -53,7 +53,7 @@ pub fn number(x: f64) -> String {
     signed(format!("{:.2} × {}", x / 10f64.powi(e), power_of_ten(e)))
 }
 
-/// Thousands apart, from five digits on.
+/// Separates thousands, from five digits on.
 fn grouped(text: &str) -> String {
     let digits = text.trim_start_matches('-');
     if digits.contains('.') || digits.len() < 5 {
@@ -63,7 +63,7 @@ fn grouped(text: &str) -> String {
     format!("{}\u{202f}{}", &text[..cut], &text[cut..])
 }
 
-/// A number that is exact as it is: `0.1`, `20`.
+/// A number without trailing zeros: `0.1`, `20`.
 #[must_use]
 pub fn tick(x: f64) -> String {
     let text = number(x);
@@ -76,8 +76,8 @@ pub fn tick(x: f64) -> String {
     }
 }
 
-/// A value with its error, both to the error's second digit: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`. A line
-/// may break before the ± but not after it.
+/// A value with its error, both to the second digit of the error: `0.0123 ± 0.0004`, `(1.23 ± 0.04) × 10⁻⁵`.
+/// A line may break before the ± but not after it.
 #[must_use]
 pub fn quantity(value: f64, error: f64) -> String {
     if !value.is_finite() || !error.is_finite() || error <= 0.0 || value == 0.0 {
@@ -108,7 +108,7 @@ pub fn probability(p: f64) -> String {
     }
 }
 
-/// A share in percent.
+/// A fraction in per cent.
 #[must_use]
 pub fn percent(share: f64) -> String {
     if !share.is_finite() {
@@ -125,7 +125,7 @@ pub fn percent(share: f64) -> String {
     signed(format!("{x:.places$} %"))
 }
 
-/// A difference in percent with its error: `+2.1 % ± 0.3 %`.
+/// A difference in per cent with its error: `+2.1 % ± 0.3 %`.
 fn difference(value: f64, error: f64) -> String {
     let places =
         if 100.0 * error >= 0.95 { 0 } else { usize::try_from(-exponent(100.0 * error)).unwrap_or(1) };
@@ -133,7 +133,7 @@ fn difference(value: f64, error: f64) -> String {
     signed(format!("{:+.places$} % ± {:.places$} %", 100.0 * value, 100.0 * error))
 }
 
-/// A factor, to two or three digits.
+/// A factor with two or three digits.
 #[must_use]
 pub fn times(x: f64) -> String {
     let decimals = match x {
@@ -146,7 +146,7 @@ pub fn times(x: f64) -> String {
     grouped(&format!("{x:.decimals$}"))
 }
 
-/// How many times as efficient as the baseline.
+/// Efficiency relative to the baseline.
 #[must_use]
 pub fn speedup(standing: &Standing) -> String {
     match (standing.speedup, standing.speedup_interval) {
@@ -156,18 +156,18 @@ pub fn speedup(standing: &Standing) -> String {
     }
 }
 
-/// The 95 % interval of that, `[3.0, 3.4]`; the baseline has none.
+/// 95 % interval of the speed-up, `[3.0, 3.4]`; `None` for the baseline.
 #[must_use]
 pub fn interval(standing: &Standing) -> Option<String> {
     match standing.speedup_interval {
         [1.0, 1.0] => None,
-        // Two passes have to have been timed.
+        // The cost is known only after two timed passes.
         [lo, hi] if !lo.is_finite() || !hi.is_finite() => None,
         [lo, hi] => Some(format!("[{}, {}]", times(lo), times(hi))),
     }
 }
 
-/// What a view was held against.
+/// Display text for the image that a view was compared with.
 #[must_use]
 pub fn against(against: &Against) -> String {
     match against {
@@ -177,23 +177,23 @@ pub fn against(against: &Against) -> String {
     }
 }
 
-/// A z beyond which the mean of the whole is what differs.
+/// z beyond which the verdict states the difference of the whole region instead of the worst block.
 const FAR: f64 = 4.0;
 
-/// The verdict with the number that it rests on: `agrees (p = .43)`, `biased: +2.1 % ± 0.3 %`.
+/// The verdict with its supporting number: `agrees (p = .43)`, `biased: +2.1 % ± 0.3 %`.
 #[must_use]
 pub fn verdict(standing: &Standing) -> String {
     let Some(found) = standing.agreement else {
         let why = match &standing.against {
             Against::Nothing(why) => why,
-            _ => "it cannot be held against anything",
+            _ => "there is no image to compare it with",
         };
         return format!("undecided: {why}");
     };
     let text = match found.verdict {
         Verdict::Agrees => format!("agrees (p = {})", probability(found.p)),
         Verdict::Undecided if found.excluded > 0 && found.p.is_nan() => {
-            "undecided: pixels without a value".into()
+            "undecided: pixels without a finite value".into()
         }
         Verdict::Undecided => "undecided: too noisy to tell".into(),
         Verdict::Differs => match found.worst.filter(|_| found.z.abs() < FAR) {
@@ -212,7 +212,7 @@ pub fn verdict(standing: &Standing) -> String {
     }
 }
 
-/// A word that a shell leaves alone.
+/// Quotes a word for a shell where necessary.
 #[must_use]
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_=./:,+@%".contains(c);
@@ -228,7 +228,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short_and_honest() {
+    fn numbers_are_short_and_correctly_rounded() {
         for (x, text) in [
             (0.012_345, "0.0123"),
             (0.0, "0"),

@@ -1,43 +1,43 @@
-//! What the rows of a scene answer.
+//! Answers to questions, derived from the rows of a scene.
 
 use super::{Criterion, Question};
 use crate::bench::{Interval, Row};
 use serde::Serialize;
 
-/// What one scene says to a question.
+/// Answer to a question on one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Answer {
-    /// The question's id.
+    /// Id of the question.
     pub question: &'static str,
-    /// The variant that it is about.
+    /// Variant under test.
     pub variant: &'static str,
-    /// What it is held against.
+    /// Variant that it is compared with.
     pub against: &'static str,
-    /// What they are compared by: `efficiency` or `paths per second`.
+    /// Criterion: `efficiency` or `paths per second`.
     pub by: &'static str,
-    /// The ratio of that, with its 95 % interval.
+    /// Ratio of the criterion, with its 95 % interval.
     pub ratio: Interval,
-    /// What that means.
+    /// Interpretation of the ratio.
     pub outcome: Outcome,
 }
 
-/// What an interval means.
+/// Interpretation of an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
-    /// The interval lies above 1.
+    /// The interval is above 1.
     Better,
-    /// It lies below 1.
+    /// The interval is below 1.
     Worse,
-    /// It holds 1, or is not known.
+    /// The interval contains 1, or is not known.
     Open,
-    /// It would say something, but the one that looks better owes its error to one run: rare bright paths that
-    /// it mostly missed would make it look good.
+    /// The interval excludes 1, but one run has most of the error of the variant that appears better. Rare
+    /// bright paths that it mostly missed could make it appear so.
     HeavyTailed,
 }
 
 impl Outcome {
-    /// As words.
+    /// Display text.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ impl Outcome {
 }
 
 impl Question {
-    /// The answer; none if one of the two has not run.
+    /// Answers the question; `None` if one of the two variants did not run.
     #[must_use]
     pub fn answer(&self, rows: &[Row]) -> Option<Answer> {
         let row = |id: &str| rows.iter().find(|row| row.estimator == id);
@@ -61,9 +61,10 @@ impl Question {
             }
             Criterion::Pace => (variant.pace_over(against), [false; 2]),
         };
-        // An outlier on the losing side makes its loss no smaller: a sample that missed some has too little error.
+        // An outlier in the worse variant does not weaken its result: runs that missed rare paths
+        // underestimate the error.
         let outcome = match ratio {
-            // An error that is no more than the reference's own says nothing.
+            // An error that does not exceed the noise of the reference is not significant.
             Interval { mean, .. } if !(mean > 0.0 && mean.is_finite()) => Outcome::Open,
             Interval { lo, .. } if lo > 1.0 && own_tail => Outcome::HeavyTailed,
             Interval { hi, .. } if hi < 1.0 && other_tail => Outcome::HeavyTailed,
@@ -82,7 +83,8 @@ pub(super) mod tests {
     use crate::bench::Trial;
     use crate::figures::study::questions;
 
-    /// Rows with these errors; each run takes one CPU second for so many paths, of which one was lost.
+    /// Rows with these errors; each run takes one CPU second for the given number of paths, of which one was
+    /// lost.
     pub fn row(scene: &str, id: &str, errors: &[f64], paths: u64) -> Row {
         let trial = |e: &f64| Trial {
             spp: 4,
@@ -105,7 +107,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn intervals_decide_and_outliers_decide_only_against_themselves() {
+    fn intervals_decide_and_outliers_count_only_against_their_variant() {
         let by_error = |new: &[f64], old: &[f64]| outcome("null-scattering", (new, 100), (old, 100));
         let even = [0.10, 0.11, 0.09, 0.10];
         let better = even.map(|e| e / 4.0);
@@ -113,13 +115,13 @@ pub(super) mod tests {
         assert!(found == Outcome::Better && (ratio - 4.0).abs() < 1e-9);
         assert_eq!(by_error(&even, &better).0, Outcome::Worse);
         assert_eq!(by_error(&even, &[0.12, 0.08, 0.13, 0.09]).0, Outcome::Open);
-        // Errors of which one run has most are believed when they lose …
+        // Errors dominated by one run are accepted if the variant is worse …
         let outlier = [1.0, 1.0, 1.0, 3.1];
         assert!(row("s", "nee", &outlier, 100).heavy_tailed);
         assert_eq!(by_error(&even, &outlier).0, Outcome::Better);
-        // … and not when they win.
+        // … and not if it is better.
         assert_eq!(by_error(&outlier, &even.map(|e| 1e3 * e)).0, Outcome::HeavyTailed);
-        // Errors that the reference's noise swallows decide nothing.
+        // Errors below the noise of the reference decide nothing.
         assert_eq!(by_error(&even, &even.map(|e| e - 0.2)).0, Outcome::Open);
         let first = questions().next().unwrap();
         assert_eq!(first.answer(&[row("s", "uni-nee-mis", &even, 100)]), None);

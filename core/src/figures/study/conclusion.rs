@@ -1,11 +1,11 @@
-//! Sentences from numbers, and from nothing else.
+//! Conclusions in sentences, derived from the numbers only.
 
 use super::variant::name;
 use super::{Answer, Criterion, Outcome, Question, SceneStudy, TOPICS, Topic};
 use crate::compare::report::words;
 
-/// What the study says: the answer to the report's closing question, a paragraph per topic, what did not run, and
-/// what to beware of. Nothing without a study.
+/// Conclusions of the study: the answer to the closing question of the report, a paragraph per topic,
+/// variants that did not run, and a caution. Empty without a study.
 #[must_use]
 pub fn conclusion(studies: &[SceneStudy]) -> Vec<String> {
     if studies.is_empty() {
@@ -18,13 +18,13 @@ pub fn conclusion(studies: &[SceneStudy]) -> Vec<String> {
     paragraphs
 }
 
-/// What the scenes say to a question, by what that means.
+/// Answers of all scenes to a question.
 struct Votes<'a> {
     all: Vec<(&'static str, &'a Answer)>,
 }
 
 impl<'a> Votes<'a> {
-    /// None if no scene has an answer.
+    /// Collects the answers; `None` if no scene has one.
     fn of(question: &Question, studies: &'a [SceneStudy]) -> Option<Self> {
         let all: Vec<_> = studies.iter().filter_map(|s| Some((s.scene, s.answer(question)?))).collect();
         (!all.is_empty()).then_some(Self { all })
@@ -57,7 +57,7 @@ impl<'a> Votes<'a> {
         format!("{} of {n} scene{}", parts.join(", "), if n == 1 { "" } else { "s" })
     }
 
-    /// The smallest and the largest ratio with their scenes; one, if there is but one.
+    /// Smallest and largest ratio with their scenes; a single ratio if they coincide.
     fn range(&self) -> String {
         let by_ratio = |a: &&(&str, &Answer), b: &&(&str, &Answer)| a.1.ratio.mean.total_cmp(&b.1.ratio.mean);
         let ends = [self.all.iter().min_by(by_ratio), self.all.iter().max_by(by_ratio)];
@@ -71,23 +71,25 @@ impl<'a> Votes<'a> {
     }
 }
 
-/// The answer to the question that the report closes with.
+/// Answer to the closing question of the report.
 fn verdict(studies: &[SceneStudy]) -> String {
-    const ASKED: &str = "Should the null-scattering formulation be the default?";
+    const QUESTION: &str = "Should the null-scattering formulation be the default?";
     let Some((question, votes)) =
         TOPICS.first().and_then(|t| t.questions.first()).and_then(|q| Some((q, Votes::of(q, studies)?)))
     else {
-        return format!("{ASKED} That stays open: the two integrators did not run on the same scene.");
+        return format!("{QUESTION} This stays open: the two integrators did not run on the same scene.");
     };
     let (better, worse, open) = (votes.better(), votes.worse(), votes.open());
     let answer = match (better.is_empty(), worse.is_empty(), open.is_empty()) {
-        (false, true, true) => "Yes, by every scene.",
-        (false, true, false) => "Yes: nothing here speaks against it, though not every interval decides.",
+        (false, true, true) => "Yes, on every scene.",
+        (false, true, false) => "Yes: no scene shows a loss, though not every interval is conclusive.",
         (true, false, true) => "No: it costs efficiency on every scene.",
-        (true, false, false) => "Not for its efficiency: no scene gains, though not every interval decides.",
-        (false, false, _) => "That depends on the scene: some gain and some lose.",
+        (true, false, false) => {
+            "Not for its efficiency: no scene shows a gain, though not every interval is conclusive."
+        }
+        (false, false, _) => "This depends on the scene: some gain and some lose.",
         (true, true, _) => {
-            "These numbers do not decide it: their intervals hold 1, and longer or more runs would tell."
+            "These numbers do not decide it: their intervals contain 1; longer or more runs are needed."
         }
     };
     let told: Vec<String> =
@@ -97,14 +99,14 @@ fn verdict(studies: &[SceneStudy]) -> String {
             .map(|(word, scenes)| format!("{word} {}", scenes.join(", ")))
             .collect();
     format!(
-        "{ASKED} {answer} In units of {}'s efficiency, {} is {}.",
+        "{QUESTION} {answer} Relative to the efficiency of {}, {} is {}.",
         name(question.against),
         name(question.variant),
         told.join("; ")
     )
 }
 
-/// A topic's questions, a sentence each; none if none has an answer.
+/// One sentence per question of a topic; `None` if none has an answer.
 fn paragraph(topic: &Topic, studies: &[SceneStudy]) -> Option<String> {
     let sentence = |question: &Question| {
         let votes = Votes::of(question, studies)?;
@@ -125,7 +127,7 @@ fn paragraph(topic: &Topic, studies: &[SceneStudy]) -> Option<String> {
     (!sentences.is_empty()).then(|| format!("{}. {}", topic.heading, sentences.join(" ")))
 }
 
-/// Paths that a topic's variants have lost, and where most of them.
+/// Sentences about lost paths of the variants of a topic, with the scene that has most.
 fn lost(topic: &Topic, studies: &[SceneStudy]) -> Vec<String> {
     let sentence = |question: &Question| {
         let row = |s: &SceneStudy| {
@@ -134,7 +136,7 @@ fn lost(topic: &Topic, studies: &[SceneStudy]) -> Vec<String> {
         };
         let (scene, most) = studies.iter().filter_map(row).max_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(format!(
-            "{} loses up to {} % of its paths ({scene}) to numbers that are not finite, and is biased by it.",
+            "{} loses up to {} % of its paths ({scene}) to non-finite values, which biases it.",
             name(question.variant),
             words::number(100.0 * most)
         ))
@@ -142,7 +144,7 @@ fn lost(topic: &Topic, studies: &[SceneStudy]) -> Vec<String> {
     topic.questions.iter().filter_map(sentence).collect()
 }
 
-/// Variants that did not run.
+/// Sentences about variants that did not run.
 fn missing(studies: &[SceneStudy]) -> Vec<String> {
     let mut found: Vec<((&str, &str), Vec<&str>)> = Vec::new();
     for study in studies {
@@ -166,12 +168,12 @@ fn caution(studies: &[SceneStudy]) -> String {
     let repeats = rows().map(|row| row.repeats).min().unwrap_or(0);
     let heavy = rows().filter(|row| row.heavy_tailed).count();
     let mut text = format!(
-        "Efficiency is 1/(relMSE · CPU seconds). Each of the {intervals} intervals has 95 %, from {repeats} runs a \
-         variant: about {} miss the truth by chance. The scenes are the figures' own and stand for no others.",
+        "Efficiency is 1/(relMSE · CPU seconds). Each of the {intervals} intervals has 95 % confidence, from {repeats} runs per \
+         variant: about {} miss the true ratio by chance. The scenes are those of the figures; other scenes may differ.",
         (0.05 * intervals as f64).ceil()
     );
     if heavy > 0 {
-        text += &format!(" In {heavy} rows one run has most of the error: their intervals are too narrow.");
+        text += &format!(" In {heavy} rows one run has most of the error: these intervals are too narrow.");
     }
     text
 }
@@ -185,7 +187,7 @@ mod tests {
 
     const EVEN: [f64; 4] = [0.10, 0.11, 0.09, 0.10];
 
-    /// A scene in which variants have these errors, in units of the same, and so many paths.
+    /// A scene in which variants have these errors, in a common unit, and these numbers of paths.
     fn study(scene: &'static str, variants: &[(&str, f64, u64)]) -> SceneStudy {
         let rows: Vec<Row> = variants
             .iter()
@@ -207,8 +209,8 @@ mod tests {
             conclusion(&[scene("one", a), scene("two", b)]).swap_remove(0)
         };
         for (old, said) in [
-            ([4.0, 3.0], "Yes, by every scene."),
-            ([4.0, 1.0], "Yes: nothing here speaks against it"),
+            ([4.0, 3.0], "Yes, on every scene."),
+            ([4.0, 1.0], "Yes: no scene shows a loss"),
             ([4.0, 0.25], "depends on the scene"),
             ([0.25, 0.25], "No: it costs efficiency"),
             ([0.25, 1.0], "Not for its efficiency"),
@@ -217,14 +219,14 @@ mod tests {
             let text = answer(old[0], old[1]);
             assert!(text.contains(said), "{said}: {text}");
         }
-        // With the numbers that it rests on.
+        // The ratios are stated.
         let text = answer(4.0, 0.25);
         assert!(text.contains("Uni+NEE MIS is more efficient on one 4.00 ["), "{text}");
         assert!(text.contains("; less efficient on two 0.25 ["), "{text}");
     }
 
     #[test]
-    fn topics_tell_ranges_counts_and_losses() {
+    fn topics_state_ranges_counts_and_losses() {
         let scene = |name, analogue: f64, paths| {
             let variants = [
                 ("uni-nee-mis", 1.0, 100),
@@ -234,30 +236,34 @@ mod tests {
             study(name, &variants)
         };
         let text = conclusion(&[scene("one", 2.0, 80), scene("two", 1.0, 200)]);
-        let price = about(&text, "The price of tracking densities");
+        let price = about(&text, "Cost of tracking densities");
         assert!(price.contains("f32 has 0.80 (one) to 2.00 (two) times the paths per second"), "{price}");
         assert!(price.contains("better on 1, worse on 1 of 2 scenes"), "{price}");
-        // One path of 80 is more than one of 200.
+        // One path of 80 is a larger fraction than one of 200.
         assert!(price.contains("loses up to 1.25 % of its paths (one)"), "{price}");
-        let noise = about(&text, "The noise of absorption");
+        let noise = about(&text, "Noise of absorption");
         assert!(noise.contains("0.50 (one) to 1.00 (two) times the efficiency of Uni+NEE MIS"), "{noise}");
         assert!(noise.contains("worse on 1, not decided on 1 of 2 scenes"), "{noise}");
         assert!(!noise.contains("loses"), "{noise}");
     }
 
     #[test]
-    fn what_did_not_run_is_not_hidden() {
+    fn variants_that_did_not_run_are_stated() {
         let mut one = study("one", &[("uni-nee-mis", 1.0, 100), ("nee", 2.0, 100)]);
         one.left_out.push(LeftOut { variant: "mitsuba2-volpath", reason: "it is not there".into() });
         let text = conclusion(&[one]);
         assert!(text[0].contains("stays open"), "{}", text[0]);
         about(&text, "Mitsuba 2 volpath did not run on one: it is not there.");
-        let buys = about(&text, "What combining buys");
+        let buys = about(&text, "Benefit of combining techniques");
         assert!(
             buys.contains("has 2.00 (one) times the efficiency of NEE: better on 1 of 1 scene."),
             "{buys}"
         );
-        assert!(text.last().unwrap().contains("Each of the 1 intervals has 95 %, from 4 runs a variant"));
+        assert!(
+            text.last()
+                .unwrap()
+                .contains("Each of the 1 intervals has 95 % confidence, from 4 runs per variant")
+        );
         assert!(conclusion(&[]).is_empty());
     }
 }

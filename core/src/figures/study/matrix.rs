@@ -1,32 +1,32 @@
-//! All answers as one table: a line per question, a column per scene.
+//! Table of all answers: a line per question, a column per scene.
 
 use super::{Outcome, SceneStudy, TOPICS, name};
 use serde::Serialize;
 
-/// The answers of a study, in words.
+/// Answers of a study as text.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Matrix {
-    /// The scenes: what stands above the columns.
+    /// Scenes, the column headings.
     pub scenes: Vec<&'static str>,
     /// A block per topic, with its heading.
     pub blocks: Vec<(&'static str, Vec<Line>)>,
 }
 
-/// A question with its answers.
+/// Answers to one question.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// The variant that it is about.
+    /// Variant under test.
     pub variant: &'static str,
-    /// What it is held against.
+    /// Variant that it is compared with.
     pub against: &'static str,
-    /// What they are compared by.
+    /// Criterion of the comparison.
     pub by: &'static str,
-    /// A ratio with its interval and what that means, per scene; none where one of the two did not run.
+    /// Ratio with its interval and outcome per scene; `None` where one of the two did not run.
     pub cells: Vec<Option<(String, Outcome)>>,
 }
 
 impl Matrix {
-    /// The table of a study.
+    /// Creates the table of a study.
     #[must_use]
     pub fn of(studies: &[SceneStudy]) -> Self {
         let block = |topic: &'static super::Topic| {

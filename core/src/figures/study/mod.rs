@@ -1,13 +1,13 @@
-//! The study that the report leaves to future work: estimators and ways to keep their books at equal time, with
-//! intervals.
+//! The study that the report leaves to future work: estimators and path-weight bookkeeping at equal time,
+//! with confidence intervals.
 //!
 //! ```text
 //!   VARIANTS (an estimator and settings) ──► bench (turns, repeats) ──► Row each ──► TOPICS ──► Answer each
 //! ```
 //!
-//! Every variant runs on the figure's scene with the scene's own settings, for the same wall-clock time, several
-//! times over, and is measured against the figure's reference. Answers are ratios of efficiency, 1/(relMSE · CPU
-//! seconds), or of paths per CPU second, with 95 % intervals from the scatter of the repeats.
+//! Every variant runs on the scene of the figure with the settings of the scene, several times for the same
+//! wall-clock time, and is measured against the reference of the figure. Answers are ratios of efficiency,
+//! 1/(relMSE · CPU seconds), or of paths per CPU second, with 95 % intervals from the scatter of the repeats.
 
 mod answer;
 mod conclusion;
@@ -28,34 +28,34 @@ use crate::io::Library;
 use crate::session::Budget;
 use serde::Serialize;
 
-/// What came of one scene.
+/// Results on one scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct SceneStudy {
-    /// The row of the figure.
+    /// Row of the figure.
     pub scene: &'static str,
-    /// The scene in a few words.
+    /// Description of the scene in a few words.
     pub about: &'static str,
-    /// What every variant did.
+    /// Results of every variant.
     pub rows: Vec<Row>,
     /// Variants that did not run.
     pub left_out: Vec<LeftOut>,
-    /// What was asked of them.
+    /// Answers to the questions.
     pub answers: Vec<Answer>,
 }
 
 /// A variant that did not run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
-    /// Its id.
+    /// Id of the variant.
     pub variant: &'static str,
-    /// Why.
+    /// Reason.
     pub reason: String,
 }
 
-/// Runs every variant on the scene of a figure's row.
+/// Runs every variant on the scene of a row of a figure.
 ///
 /// # Errors
-/// When the scene cannot be frozen, or threads are refused.
+/// When the scene cannot be built, or threads cannot be started.
 pub fn run(
     rendered: &Rendered,
     study: StudyOptions,
@@ -87,7 +87,7 @@ pub fn run(
 }
 
 impl SceneStudy {
-    /// Its answer to a question.
+    /// Answer to a question.
     #[must_use]
     pub fn answer(&self, question: &Question) -> Option<&Answer> {
         self.answers.iter().find(|answer| answer.question == question.id)

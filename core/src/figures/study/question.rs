@@ -1,39 +1,39 @@
-//! What is asked.
+//! Questions of the study.
 
-/// What the report leaves open, or claims, and the questions that it comes down to.
+/// A claim or open problem of the report, with the corresponding questions.
 #[derive(Clone, Copy, Debug)]
 pub struct Topic {
-    /// As a heading.
+    /// Heading.
     pub heading: &'static str,
-    /// Its questions.
+    /// Questions of the topic.
     pub questions: &'static [Question],
 }
 
-/// Whether one variant is better than another.
+/// A comparison of two variants.
 #[derive(Clone, Copy, Debug)]
 pub struct Question {
-    /// How it is called in tables for scripts.
+    /// Id in machine-readable tables.
     pub id: &'static str,
-    /// The variant that the question is about.
+    /// Variant under test.
     pub variant: &'static str,
-    /// What it is held against.
+    /// Variant that it is compared with.
     pub against: &'static str,
-    /// By what.
+    /// Criterion of the comparison.
     pub yardstick: Criterion,
 }
 
-/// What two variants are compared by.
+/// Criterion by which two variants are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
-    /// 1/(relMSE · CPU seconds): how soon the same error is reached.
+    /// 1/(relMSE · CPU seconds), which measures the time to reach an error.
     Efficiency,
-    /// Paths per CPU second: for variants whose paths are worth the same, where it is all there is and is known much
-    /// better than an efficiency.
+    /// Paths per CPU second: for variants whose paths have the same variance. It is then equivalent to
+    /// efficiency and known much more accurately.
     Pace,
 }
 
 impl Criterion {
-    /// As a unit.
+    /// Name of the unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -51,10 +51,10 @@ const fn pace(id: &'static str, variant: &'static str, against: &'static str) ->
     Question { id, variant, against, yardstick: Criterion::Pace }
 }
 
-/// Every topic; the first question of the first is the report's closing one.
+/// All topics; the first question of the first topic is the closing question of the report.
 pub static TOPICS: &[Topic] = &[
     Topic {
-        heading: "New integrator against old",
+        heading: "New and old integrator",
         questions: &[
             efficiency("null-scattering", "uni-nee-mis", "mitsuba2-volpath"),
             efficiency("null-scattering-as-reported", "uni-nee-mis-analogue", "mitsuba2-volpath"),
@@ -62,7 +62,7 @@ pub static TOPICS: &[Topic] = &[
         ],
     },
     Topic {
-        heading: "The price of tracking densities",
+        heading: "Cost of tracking densities",
         questions: &[
             pace("books-apart-f32", "uni-nee-mis-apart-f32", "uni-nee-mis"),
             pace("books-apart-f64", "uni-nee-mis-apart-f64", "uni-nee-mis"),
@@ -70,14 +70,14 @@ pub static TOPICS: &[Topic] = &[
         ],
     },
     Topic {
-        heading: "The noise of absorption",
+        heading: "Noise of absorption",
         questions: &[
             efficiency("absorption", "uni-nee-mis-analogue", "uni-nee-mis"),
             efficiency("absorption-unidirectional", "spectral-mis-analogue", "spectral-mis"),
         ],
     },
     Topic {
-        heading: "What combining buys",
+        heading: "Benefit of combining techniques",
         questions: &[
             efficiency("over-unidirectional", "uni-nee-mis", "spectral-mis"),
             efficiency("over-nee", "uni-nee-mis", "nee"),
@@ -86,7 +86,7 @@ pub static TOPICS: &[Topic] = &[
     },
 ];
 
-/// Every question.
+/// All questions.
 pub fn questions() -> impl Iterator<Item = &'static Question> {
     TOPICS.iter().flat_map(|topic| topic.questions)
 }

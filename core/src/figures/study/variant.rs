@@ -1,4 +1,4 @@
-//! Who takes part.
+//! Variants in the study.
 
 use crate::bench::Candidate;
 use crate::estimator;
@@ -8,15 +8,15 @@ use crate::scene::SceneDoc;
 /// An estimator with settings.
 #[derive(Clone, Copy, Debug)]
 pub struct Variant {
-    /// How it is called in tables for scripts.
+    /// Id in machine-readable tables.
     pub id: &'static str,
-    /// How it is called by people.
+    /// Display name.
     pub name: &'static str,
-    /// The estimator's id.
+    /// Estimator id.
     pub estimator: &'static str,
-    /// What differs from the scene's settings.
+    /// Settings that differ from those of the scene.
     pub set: &'static [&'static str],
-    /// Whether its bookkeeping biases it, which is what the study asks about.
+    /// Whether its bookkeeping biases it, which is the quantity under test.
     pub own_bias: bool,
 }
 
@@ -31,7 +31,7 @@ const fn uni_nee_mis(id: &'static str, name: &'static str, set: &'static [&'stat
     Variant { id, name, estimator: "uni-nee-mis", set, own_bias: false }
 }
 
-/// Every variant; the first is the default of this program.
+/// All variants; the first is the default of this program.
 pub static VARIANTS: &[Variant] = &[
     weighted("uni-nee-mis", "Uni+NEE MIS"),
     uni_nee_mis("uni-nee-mis-analogue", "Uni+NEE MIS, analogue absorption", &[ANALOGUE]),
@@ -66,17 +66,17 @@ pub static VARIANTS: &[Variant] = &[
     },
 ];
 
-/// A variant's name.
+/// Display name of a variant.
 #[must_use]
 pub fn name(id: &str) -> &str {
     VARIANTS.iter().find(|v| v.id == id).map_or(id, |v| v.name)
 }
 
 impl Variant {
-    /// The variant as an entrant of a benchmark, with a scene's other settings.
+    /// The variant as a candidate of a benchmark, with the other settings of the scene.
     ///
     /// # Errors
-    /// Why it cannot run on that scene, as a sentence.
+    /// The reason why it cannot run on this scene, as a sentence.
     pub fn entrant(&self, scene: &SceneDoc) -> Result<Candidate, String> {
         let mut edits = vec![format!("estimator.id={:?}", self.estimator)];
         edits.extend(self.set.iter().map(|edit| (*edit).to_owned()));
@@ -84,7 +84,7 @@ impl Variant {
         if let Some(problem) = estimator::validate(&doc).first() {
             return Err(problem.to_string());
         }
-        let entry = estimator::find(self.estimator).ok_or("there is no such estimator")?;
+        let entry = estimator::find(self.estimator).ok_or("the estimator does not exist")?;
         let entrant = Candidate {
             name: self.id.to_owned(),
             entry,
@@ -106,7 +106,7 @@ mod tests {
     use crate::scene::Absorption;
 
     #[test]
-    fn a_variant_has_its_settings_and_one_that_cannot_be_says_why() {
+    fn a_variant_has_its_settings_and_an_impossible_one_states_the_reason() {
         let scene = SceneDoc::default();
         let analogue = VARIANTS.iter().find(|v| v.id == "uni-nee-mis-analogue").unwrap();
         let entrant = analogue.entrant(&scene).unwrap();
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn every_variant_runs_on_every_scene_under_a_name_of_its_own() {
+    fn every_variant_runs_on_every_scene_under_a_unique_name() {
         for strip in FIGURES.iter().flat_map(|f| f.strips) {
             let scene = strip.scene_doc(&Options::default()).unwrap();
             let mut settings: Vec<_> = Vec::new();

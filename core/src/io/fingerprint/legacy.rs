@@ -1,7 +1,7 @@
-//! The name that version 0.1 gave to an image: a digest of the whole document as it was written then. Pictures that were
-//! stored under it are still known by it.
+//! Fingerprints of version 0.1: a digest of the whole document as that version wrote it. Images with such a
+//! fingerprint are still recognised.
 //!
-//! Frozen: the keys that counted, and the values that stood for those that did not.
+//! Frozen: the hashed keys, and the fixed values of the other keys.
 
 use super::of_bytes;
 use crate::io::scene_file;
@@ -10,7 +10,7 @@ use crate::scene::keys::{Affects, leaves};
 use crate::scene::{MajorantDoc, RenderDoc, SceneDoc};
 use toml_edit::{DocumentMut, Item, Table, Value};
 
-/// What version 0.1 wrote for keys that the expected image does not depend on.
+/// Values that version 0.1 wrote for keys that do not affect the expected image.
 const FROZEN: &[(&str, &str)] = &[
     ("title", "\"Untitled\""),
     ("note", "\"\""),
@@ -39,7 +39,7 @@ const FROZEN: &[(&str, &str)] = &[
     ("view.tone", "\"filmic\""),
 ];
 
-/// The keys of version 0.1 that the expected image depends on.
+/// Keys of version 0.1 that affect the expected image.
 const COUNTED: &[&str] = &[
     "majorant",
     "camera.origin",
@@ -106,7 +106,7 @@ const COUNTED: &[&str] = &[
     "estimator.max_depth",
 ];
 
-/// The name that version 0.1 would have given; `None` if it could not have rendered the document.
+/// Fingerprint in the format of version 0.1; `None` if that version could not have rendered the document.
 pub(super) fn of_scene(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> Option<String> {
     let unknown = leaves(doc).ok()?.into_iter().any(|leaf| {
         let key = leaf.key();
@@ -123,9 +123,9 @@ pub(super) fn of_scene(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> O
     Some(of_bytes(written.to_string().as_bytes()))
 }
 
-/// What version 0.1 would have hashed, with the keys and defaults of today.
+/// Text that version 0.1 would have hashed, but with current keys and defaults.
 fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> String {
-    // Sections in the order of then; what did not count has the values of then.
+    // Sections in the order of version 0.1; keys that were not hashed have their values of version 0.1.
     let mut part = SceneDoc {
         camera: doc.camera.clone(),
         film: doc.film.clone(),
@@ -145,7 +145,7 @@ fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> String
     scene_file::to_toml(&part)
 }
 
-/// Puts the values of then for keys that did not count, and takes out keys that there were not.
+/// Restores the values of version 0.1 for keys that were not hashed, and removes newer keys.
 fn thaw(table: &mut Table, pattern: &str) -> Option<()> {
     let dot = if pattern.is_empty() { "" } else { "." };
     let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
@@ -233,13 +233,14 @@ mod tests {
         documents
     }
 
-    /// As long as no key was added and no default changed, nothing is put or taken out; afterwards the text is that of then.
+    /// While no key was added and no default changed, the text is not modified; afterwards it is restored to
+    /// that of version 0.1.
     #[test]
     fn the_text_of_version_0_1_stands_as_it_was() {
         for doc in documents() {
             let text = text_today(&doc, str::to_owned);
             assert_eq!(thawed(&text), text);
-            // A default that changes, and keys and tables that are new.
+            // A changed default, and new keys and tables.
             let later = text.replacen("absorption = \"weighted\"", "absorption = \"analogue\"", 1);
             let later = later.replacen("[film]\n", "[film]\nbit_depth = 12\n", 1);
             let later = format!("{later}\n[weather]\nwind = 3.0\n");

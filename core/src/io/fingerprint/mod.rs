@@ -1,9 +1,10 @@
-//! Names of images and of samples, from the table of keys.
+//! Fingerprints of images and of samples, derived from the table of keys.
 //!
-//! The *target's* fingerprint names the image that unbiased estimates of a document converge to: it changes with what the
-//! expected image depends on, and with nothing else. Keys at their default do not count, so that a new key renames no
-//! image. The *samples'* fingerprint names the very samples: every key that they depend on, resolved, with the program's
-//! version. Files count by their content in both.
+//! The fingerprint of the *target* identifies the image to which unbiased estimates of a document converge:
+//! it changes only with keys that affect the expected image. Keys at their default are not hashed, so that a
+//! new key does not change existing fingerprints. The fingerprint of the *samples* identifies the individual
+//! samples: all keys that affect them, resolved, with the version of the program. Files are hashed by content
+//! in both.
 
 mod legacy;
 
@@ -14,16 +15,16 @@ use sha2::{Digest, Sha256};
 use std::io::Read;
 use toml::Value;
 
-/// Raised whenever the default or the meaning of a key changes that the expected image depends on: names from before
-/// then stand for other images.
+/// Version of the fingerprint. Incremented whenever the default or the meaning of a key that affects the
+/// expected image changes: older fingerprints then identify other images.
 const RECIPE: u32 = 1;
 
-/// Sixteen hexadecimal digits of SHA-256.
+/// First sixteen hexadecimal digits of a SHA-256 hash.
 fn digits(hash: Sha256) -> String {
     hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Sixteen hexadecimal digits of SHA-256 of some bytes.
+/// First sixteen hexadecimal digits of the SHA-256 hash of some bytes.
 #[must_use]
 pub fn of_bytes(bytes: &[u8]) -> String {
     let mut hash = Sha256::new();
@@ -31,7 +32,7 @@ pub fn of_bytes(bytes: &[u8]) -> String {
     digits(hash)
 }
 
-/// Sixteen hexadecimal digits of SHA-256 of a file, read piece by piece.
+/// First sixteen hexadecimal digits of the SHA-256 hash of a file, read in blocks.
 ///
 /// # Errors
 /// When the file cannot be read.
@@ -46,13 +47,13 @@ pub fn of_file(path: &std::path::Path) -> std::io::Result<String> {
     }
 }
 
-/// Hashes what the expected image depends on; `content` names what is in a file.
+/// Hashes the keys that affect the expected image; `content` identifies the content of a file.
 fn of_target(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> String {
     let counts = |leaf: &Leaf| leaf.key().affects == Affects::Scene && !leaf.is_default();
     of_lines(&format!("target {RECIPE}"), doc, counts, content)
 }
 
-/// Hashes all that samples depend on.
+/// Hashes all keys that affect the samples.
 fn of_samples(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> String {
     let head = format!("samples {RECIPE} {}", env!("CARGO_PKG_VERSION"));
     of_lines(&head, doc, |leaf| matches!(leaf.key().affects, Affects::Scene | Affects::Estimate), content)
@@ -64,10 +65,10 @@ fn of_lines(
     counts: impl Fn(&Leaf) -> bool,
     mut content: impl FnMut(&str) -> String,
 ) -> String {
-    // What no scene file can hold has no keys: it goes by its text.
+    // A document that cannot be written as a scene file has no keys; its text is hashed.
     let Ok(leaves) = leaves(doc) else { return of_bytes(scene_file::to_toml(doc).as_bytes()) };
     let mut text = format!("{head}\n");
-    // Other views are images of their own.
+    // Other views are separate images.
     for leaf in leaves.iter().filter(|leaf| !leaf.key().path.starts_with("compare.") && counts(leaf)) {
         let value = match (leaf.key().value, leaf.value.as_str()) {
             (Type::File, Some(file)) if !file.is_empty() => content(file),
@@ -78,7 +79,7 @@ fn of_lines(
     of_bytes(text.as_bytes())
 }
 
-/// A value in one spelling, whatever writes files today.
+/// Canonical spelling of a value, independent of the file writer.
 fn canonical(value: &Value) -> String {
     match value {
         Value::Float(x) => format!("{:e}", *x as f32),
@@ -97,21 +98,22 @@ fn canonical(value: &Value) -> String {
 }
 
 impl Library {
-    /// Names the image that a document's unbiased estimates converge to: two documents with the same name
-    /// differ at most in how they are estimated.
+    /// Fingerprint of the image to which unbiased estimates of a document converge: two documents with the
+    /// same fingerprint differ only in how the image is estimated.
     #[must_use]
     pub fn fingerprint(&mut self, doc: &SceneDoc) -> String {
         of_target(doc, |file| self.digest(file))
     }
 
-    /// Names the samples of a document: with the same name, sample 17 of a pixel is the same path with the same value.
+    /// Fingerprint of the samples of a document: with the same fingerprint, each numbered sample of a pixel
+    /// is the same path with the same value.
     #[must_use]
     pub fn sample_fingerprint(&mut self, doc: &SceneDoc) -> String {
         of_samples(doc, |file| self.digest(file))
     }
 
-    /// Whether a name that a file holds stands for the image of a document: its fingerprint, or the name that
-    /// version 0.1 gave it.
+    /// Whether a fingerprint in a file identifies the image of a document, in the current format or in that
+    /// of version 0.1.
     #[must_use]
     pub fn is_named(&mut self, name: &str, doc: &SceneDoc) -> bool {
         name == self.fingerprint(doc)
@@ -137,7 +139,7 @@ mod tests {
         assert_eq!(name("a.vdb"), name("b.vdb"));
         assert_ne!(name("a.vdb"), name("c.vdb"));
         assert_eq!(name("a.vdb").len(), 16);
-        // Nothing that estimates it counts.
+        // Estimation settings are not hashed.
         let mut edited = with("a.vdb");
         edited.estimator.id = "nee".into();
         edited.render.seed = 9;
@@ -172,7 +174,8 @@ mod tests {
         assert_eq!(of_file(&path).unwrap(), of_bytes(&bytes));
     }
 
-    /// Images of the embedded scenes: the name of today, and that of version 0.1. Another name today is another recipe.
+    /// Fingerprints of the embedded scenes, in the current format and in that of version 0.1. A change of the
+    /// current ones requires a new version of the fingerprint.
     #[test]
     fn embedded_scenes_keep_their_names() {
         let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/src/io/fingerprint/golden.txt");
@@ -192,7 +195,8 @@ mod tests {
         assert_eq!(named, golden.lines().collect::<Vec<_>>());
     }
 
-    /// What counts as version 0.1 had it: a change of what did not count then leaves the name alone, any other changes it.
+    /// A change of a key that version 0.1 did not hash leaves the fingerprint unchanged; any other change
+    /// alters it.
     #[test]
     fn the_legacy_name_depends_on_what_it_did() {
         let name = |edit: fn(&mut SceneDoc)| {

@@ -1,4 +1,4 @@
-//! A sparse grid as blocks of 8³ voxels: what OpenVDB files are read into where nothing but blocks holds anything.
+//! Sparse grids of 8³ blocks, the representation of OpenVDB files without an array of the whole box.
 
 use super::error::{Place, VolumeError};
 use super::grid::VoxelGrid;
@@ -7,10 +7,10 @@ use std::path::Path;
 
 /// Voxels along the edge of a block.
 pub const BLOCK_EDGE: i32 = 8;
-/// Voxels of a block.
+/// Number of voxels of a block.
 pub const BLOCK: usize = 512;
 
-/// Voxels at integer index coordinates, zero but in blocks and tiles.
+/// Voxels at integer index coordinates, zero outside blocks and tiles.
 #[derive(Debug, Clone)]
 pub struct BlockGrid {
     /// Display name of the grid in its file.
@@ -19,41 +19,41 @@ pub struct BlockGrid {
     pub channels: usize,
     /// First and last index coordinates of all active voxels, both inclusive.
     pub bbox: [[i32; 3]; 2],
-    /// Index coordinates of every block's first voxel: multiples of 8.
+    /// Index coordinates of the first voxel of every block: multiples of 8.
     pub origins: Vec<[i32; 3]>,
     /// 512 voxels per block: x fastest, then y, then z; channels interleaved. All finite.
     pub values: Vec<f32>,
-    /// Cubes of one value. Blocks do not overlap them.
+    /// Cubes of constant value. Blocks do not overlap them.
     pub tiles: Vec<ConstantTile>,
     /// Maps index coordinates to world coordinates.
     pub world_from_index: DAffine3,
-    /// Whether the file calls the grid a level set, that is, a signed distance.
+    /// Whether the file declares the grid a level set, that is, a signed distance.
     pub level_set: bool,
     /// NaN or infinite voxels that the reader set to 0.
     pub repaired: u64,
-    /// What is to be known about the file and the choice of the grid, as sentences that name the file.
+    /// Notices about the file and the choice of the grid, as sentences with the file name.
     pub notices: Vec<String>,
-    /// The first voxel below 0 in the order of an array, its value, and how many there are.
+    /// First negative voxel in array order, its value, and the number of negative voxels.
     pub negative: Option<([i32; 3], f32, u64)>,
 }
 
-/// A cube of voxels of one value.
+/// A cube of voxels of constant value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConstantTile {
     /// Index coordinates of its first voxel: multiples of its edge.
     pub origin: [i32; 3],
     /// Voxels along an edge: 8, 128 or 4096.
     pub edge: i32,
-    /// A scalar is repeated in all three channels.
+    /// Value per channel; a scalar is repeated in all three channels.
     pub value: [f32; 3],
 }
 
-/// What a volume file is read into.
+/// Contents of a volume file.
 #[derive(Debug, Clone)]
 pub enum Volume {
-    /// An array of voxels.
+    /// A dense array of voxels.
     Array(VoxelGrid),
-    /// Blocks, where most of the box may be empty.
+    /// Sparse blocks.
     Blocks(BlockGrid),
 }
 
@@ -67,7 +67,7 @@ impl Volume {
         }
     }
 
-    /// Voxels along x, y and z of the box that it fills.
+    /// Voxels along x, y and z of the bounding box.
     #[must_use]
     pub fn size(&self) -> [usize; 3] {
         match self {
@@ -76,7 +76,7 @@ impl Volume {
         }
     }
 
-    /// The largest sum of values along any grid line, over axes and channels: the thickest line's optical thickness,
+    /// Largest sum of values along any grid line, over axes and channels: the optical thickness of that line
     /// per unit of extinction and voxel edge.
     #[must_use]
     pub fn thickest_line(&self) -> f32 {
@@ -86,11 +86,11 @@ impl Volume {
         }
     }
 
-    /// Checks that it can serve as a density: no value below 0. Apart from the readers, so that a level set can still
-    /// be described.
+    /// Checks that the volume can serve as a density, without negative values. Separate from the readers, so
+    /// that a level set can still be described.
     ///
     /// # Errors
-    /// [`VolumeError::NegativeDensity`] with the index of the first negative voxel in the order of an array.
+    /// [`VolumeError::NegativeDensity`] with the index of the first negative voxel in array order.
     pub fn validate_density(&self, path: &Path) -> Result<(), VolumeError> {
         match self {
             Self::Array(grid) => super::validate_density(grid, path),
@@ -100,7 +100,7 @@ impl Volume {
 }
 
 impl BlockGrid {
-    /// Voxels along x, y and z of the box around active ones.
+    /// Voxels along x, y and z of the bounding box of active voxels.
     #[must_use]
     pub fn size(&self) -> [usize; 3] {
         [0, 1, 2].map(|axis| self.bbox[1][axis].abs_diff(self.bbox[0][axis]) as usize + 1)
@@ -123,7 +123,7 @@ impl BlockGrid {
         let offset = |at: [i32; 3]| [0, 1, 2].map(|axis| at[axis].abs_diff(self.bbox[0][axis]) as usize);
         let mut thickest = 0.0f32;
         for channel in 0..self.channels {
-            // Sums along every axis, by the two others.
+            // Sums along every axis, indexed by the two other axes.
             let mut sums: [Vec<f32>; 3] =
                 [size[1] * size[2], size[0] * size[2], size[0] * size[1]].map(|n| vec![0.0; n]);
             let mut add = |[x, y, z]: [usize; 3], value: f32| {
@@ -136,7 +136,7 @@ impl BlockGrid {
                     let value = values[channel];
                     let within = [voxel % 8, voxel / 8 % 8, voxel / 64];
                     let at = [0, 1, 2].map(|axis| origin[axis] + within[axis] as i32);
-                    // What lies outside of the box is zero.
+                    // Voxels outside the box are zero.
                     if value != 0.0 {
                         add(offset(at), value);
                     }

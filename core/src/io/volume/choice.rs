@@ -1,12 +1,12 @@
-//! The choice of a grid in a file of several, by name or by what it is to be used as.
+//! Choice of a grid in a file with several, by name or by role.
 
-/// Physical quantity that a scalar grid is read as.
+/// Physical quantity for which a scalar grid is read.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum GridRole {
     /// Density of the medium.
     #[default]
     Density,
-    /// Temperature of the medium's emission.
+    /// Temperature for thermal emission of the medium.
     Temperature,
 }
 
@@ -29,16 +29,16 @@ impl GridRole {
     }
 }
 
-/// A grid by name, or else the one that suits a role best.
+/// A grid name, or a role for which the most suitable grid is chosen.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct GridChoice<'a> {
-    /// Name of the grid; absent: chosen by role.
+    /// Name of the grid; `None` to choose by role.
     pub name: Option<&'a str>,
-    /// What the grid is read as.
+    /// Quantity for which the grid is read.
     pub role: GridRole,
 }
 
-/// A grid by name, or else the one that is named like a density.
+/// Choice by name, or of the most suitable density.
 impl<'a> From<Option<&'a str>> for GridChoice<'a> {
     fn from(name: Option<&'a str>) -> Self {
         Self { name, role: GridRole::Density }
@@ -48,21 +48,21 @@ impl<'a> From<Option<&'a str>> for GridChoice<'a> {
 /// Suitability of a grid for a role, best first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Suitability {
-    /// The role's own name, letter for letter.
+    /// Exact name of the role.
     OwnName,
-    /// The role's own name in other capitals.
+    /// Name of the role with different capitalisation.
     OwnNameAnyCase,
     /// Another common name of the quantity.
     CommonName,
-    /// A name that contains one of those.
+    /// A name that contains a common name.
     Related,
     /// No name.
     Unnamed,
-    /// A name that says nothing of the quantity.
+    /// A name without relation to the quantity.
     Unknown,
 }
 
-/// Suitability of a grid called `name` for a role; `None` where the name is that of another quantity.
+/// Suitability of a grid called `name` for a role; `None` if the name refers to another quantity.
 pub(super) fn suitability(name: &str, role: GridRole) -> Option<Suitability> {
     let name = without_number(name);
     if name == role.name() {
@@ -94,15 +94,15 @@ pub(super) fn suitability(name: &str, role: GridRole) -> Option<Suitability> {
 /// Names of one quantity.
 #[derive(Debug, Clone, Copy)]
 struct Vocabulary {
-    /// Words of a name, in lower case and without a number behind them.
+    /// Whole words of a name, in lower case and without trailing numbers.
     words: &'static [&'static str],
-    /// Parts of words, for names written without a gap.
+    /// Substrings of the concatenated words, for names written without separators.
     parts: &'static [&'static str],
-    /// Words that count only where they are the whole name.
+    /// Words that match only as the whole name.
     alone: &'static [&'static str],
 }
 
-/// Names of densities among exporters.
+/// Names of densities used by exporters.
 const DENSITY: Vocabulary = Vocabulary {
     words: &[
         "density",
@@ -128,7 +128,7 @@ const DENSITY: Vocabulary = Vocabulary {
     alone: &[],
 };
 
-/// Names of temperatures and of what stands for them.
+/// Names of temperatures and related quantities.
 const TEMPERATURE: Vocabulary = Vocabulary {
     words: &[
         "temperature",
@@ -146,7 +146,7 @@ const TEMPERATURE: Vocabulary = Vocabulary {
     alone: &[],
 };
 
-/// Names of quantities that are neither: motion, distances, colours, and what simulations keep beside.
+/// Names of other quantities: motion, distances, colours, and auxiliary simulation data.
 const OTHER: Vocabulary = Vocabulary {
     words: &[
         "velocity",
@@ -211,7 +211,7 @@ impl Vocabulary {
     }
 }
 
-/// Words of a name in lower case: `airTemperature_01` is air, temperature.
+/// Words of a name in lower case: `airTemperature_01` becomes air, temperature.
 fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();
@@ -229,13 +229,14 @@ fn words(name: &str) -> Vec<String> {
     words.iter().map(|word| unnumbered(word)).filter(|word| !word.is_empty()).map(str::to_owned).collect()
 }
 
-/// `temp2` is temp; a letter with a digit, as in `v2`, is more often a version.
+/// Removes a trailing number: `temp2` becomes temp. A single letter with a digit, as in `v2`, is usually a
+/// version and is kept.
 fn unnumbered(word: &str) -> &str {
     let stem = word.trim_end_matches(|c: char| c.is_ascii_digit());
     if stem.chars().count() == 1 { word } else { stem }
 }
 
-/// The name without the number that tells it from another of the same name: `density[1]`.
+/// Removes the number that distinguishes grids of the same name: `density[1]`.
 fn without_number(name: &str) -> &str {
     let stem = name.strip_suffix(']').and_then(|open| open.rsplit_once('['));
     stem.filter(|(_, number)| number.chars().all(|c| c.is_ascii_digit())).map_or(name, |(stem, _)| stem)
@@ -248,7 +249,7 @@ mod tests {
 
     #[test]
     fn names_are_told_apart_by_quantity() {
-        // Name, suitability as a density, as a temperature.
+        // Name, suitability as a density, suitability as a temperature.
         let table = [
             ("density", Some(OwnName), None),
             ("density[1]", Some(OwnName), None),

@@ -1,11 +1,11 @@
-//! A reader that tells how far it is.
+//! A reader that reports its progress.
 
 use std::io::{Read, Result, Seek, SeekFrom};
 
 /// Bytes between two reports.
 const EVERY: u64 = 64 * 1024;
 
-/// Passes everything on, and tells `watch` the share of `length` bytes that lies behind the furthest byte read.
+/// Forwards reads and reports to `watch` the fraction of `length` bytes that has been read.
 pub(super) struct Counted<'a, R> {
     reader: R,
     at: u64,
@@ -15,7 +15,7 @@ pub(super) struct Counted<'a, R> {
 }
 
 impl<'a, R> Counted<'a, R> {
-    /// Of a reader that starts at its beginning.
+    /// Wraps a reader at its beginning.
     pub fn new(reader: R, length: usize, watch: &'a dyn Fn(f64)) -> Self {
         Self { reader, at: 0, told: 0, length: length.max(1) as u64, watch }
     }

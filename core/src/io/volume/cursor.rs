@@ -1,11 +1,11 @@
-//! A bounded little-endian reader: no read leaves its window, and every failure says where it was.
+//! A bounded little-endian reader; no read leaves its window, and every error states its position.
 
 use super::error::Fault;
 
-/// Longest name or text accepted, in bytes. Real ones are below 100; a damaged length is not.
+/// Maximum length of a name or text in bytes. Real ones are below 100; a damaged length is not.
 const MAX_TEXT_BYTES: usize = 1 << 16;
 
-/// Reads `bytes[position..end]` from front to back.
+/// Sequential reader of `bytes[position..end]`.
 #[derive(Debug, Clone)]
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
@@ -17,7 +17,7 @@ impl<'a> Cursor<'a> {
         Self { bytes, position: 0 }
     }
 
-    /// A cursor at `start` that cannot pass `end`; offsets stay those of the whole file.
+    /// Cursor at `start` that cannot pass `end`; offsets remain those of the whole file.
     pub(super) fn window(bytes: &'a [u8], start: u64, end: u64) -> Result<Self, Fault> {
         let window = usize::try_from(start).ok().zip(usize::try_from(end).ok());
         match window {
@@ -41,7 +41,7 @@ impl<'a> Cursor<'a> {
         self.bytes.len() - self.position
     }
 
-    /// The next `len` bytes.
+    /// Reads the next `len` bytes.
     pub(super) fn take(&mut self, len: usize) -> Result<&'a [u8], Fault> {
         if len > self.remaining() {
             return Err(Fault::invalid(
@@ -96,7 +96,7 @@ impl<'a> Cursor<'a> {
         Ok([self.i32()?, self.i32()?, self.i32()?])
     }
 
-    /// `N` 64-bit words.
+    /// Reads `N` 64-bit words.
     pub(super) fn words<const N: usize>(&mut self) -> Result<[u64; N], Fault> {
         let mut words = [0; N];
         for (word, bytes) in words.iter_mut().zip(self.take(8 * N)?.chunks_exact(8)) {
@@ -107,7 +107,7 @@ impl<'a> Cursor<'a> {
         Ok(words)
     }
 
-    /// A text with its length in front, as OpenVDB writes it. Bytes outside UTF-8 are replaced.
+    /// Reads a length-prefixed text, as written by OpenVDB. Invalid UTF-8 is replaced.
     pub(super) fn text(&mut self) -> Result<String, Fault> {
         let start = self.position();
         let len = self.u32()? as usize;

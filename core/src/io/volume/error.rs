@@ -1,69 +1,69 @@
-//! What can go wrong when a volume file is read.
+//! Errors of volume files.
 //!
-//! Every message has the same three parts: where (file, grid, byte), what, and the cure.
+//! Every message has three parts: place (file, grid, byte), fault and remedy.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// Why a volume could not be read.
+/// Reason why a volume could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum VolumeError {
-    /// The operating system could not give us the bytes.
+    /// The operating system could not read the file.
     #[error("{file}: cannot be read: {source}. Check the name and the folder, or choose another file")]
     Io {
         /// Path or label of the file.
         file: String,
-        /// What the operating system said.
+        /// Error of the operating system.
         #[source]
         source: std::io::Error,
     },
-    /// The bytes contradict the format or themselves.
+    /// The bytes contradict the format or each other.
     #[error("{file}{place}: damaged: {what}. {cure}")]
     Invalid {
         /// Path or label of the file.
         file: String,
         /// Grid and byte offset, as far as they are known.
         place: Place,
-        /// What was found.
+        /// Fault that was found.
         what: String,
-        /// What the user can do.
+        /// Remedy for the user.
         cure: Cow<'static, str>,
     },
-    /// The file may be sound, but holds something that this reader does not read exactly.
+    /// The file may be valid, but contains a feature that this reader does not support exactly.
     #[error("{file}{place}: not supported: {what}. {cure}")]
     Unsupported {
         /// Path or label of the file.
         file: String,
         /// Grid and byte offset, as far as they are known.
         place: Place,
-        /// The feature.
+        /// Unsupported feature.
         what: String,
-        /// What the user can do.
+        /// Remedy for the user.
         cure: Cow<'static, str>,
     },
-    /// Reading would exceed one of the [`Limits`](super::Limits).
+    /// Reading would exceed one of the [`ReadLimits`](super::ReadLimits).
     #[error("{file}{place}: too large: {what}. {cure}")]
     TooLarge {
         /// Path or label of the file.
         file: String,
         /// Grid and byte offset, as far as they are known.
         place: Place,
-        /// What is needed and what is allowed.
+        /// Required and allowed amounts.
         what: String,
-        /// What the user can do.
+        /// Remedy for the user.
         cure: Cow<'static, str>,
     },
-    /// The file has no grid of that name (or none that can serve as a density).
+    /// The file has no grid of this name (or none that can serve as a density).
     #[error("{file}: {what}. {}", available_text(.available))]
     NoSuchGrid {
         /// Path or label of the file.
         file: String,
-        /// What was asked for.
+        /// Requested grid.
         what: String,
-        /// The names that exist, in file order.
+        /// Names of existing grids, in file order.
         available: Vec<String>,
     },
-    /// A density below zero, which no fog volume can have.
+    /// A negative density, which no fog volume can have.
     #[error(
         "{file}{place}: voxel {index:?} has the negative density {value}, one of {count}. {}",
         negative_cure(*.level_set)
@@ -71,15 +71,15 @@ pub enum VolumeError {
     NegativeDensity {
         /// Path or label of the file.
         file: String,
-        /// The grid.
+        /// Grid of the voxel.
         place: Place,
         /// Index coordinates (x, y, z) of the first negative voxel.
         index: [i32; 3],
-        /// Its value.
+        /// Value of that voxel.
         value: f32,
-        /// How many voxels are negative.
+        /// Number of negative voxels.
         count: usize,
-        /// Whether the file says that the grid is a level set.
+        /// Whether the file declares the grid a level set.
         level_set: bool,
     },
 }
@@ -123,7 +123,7 @@ fn negative_cure(level_set: bool) -> &'static str {
     }
 }
 
-/// A [`VolumeError`] before the names of the file and the grid are known.
+/// A [`VolumeError`] before the names of file and grid are known.
 #[derive(Debug, Clone)]
 pub(super) struct Fault {
     kind: FaultKind,
@@ -140,7 +140,7 @@ enum FaultKind {
 }
 
 impl Fault {
-    /// Damage, with the usual cure.
+    /// Damage, with the default remedy.
     pub(super) fn invalid(byte: impl Into<Option<u64>>, what: impl Into<String>) -> Self {
         Self {
             kind: FaultKind::Invalid,
@@ -154,7 +154,7 @@ impl Fault {
         Self { kind: FaultKind::Unsupported, byte: None, what: what.into(), cure: cure.into() }
     }
 
-    /// `what` needs `needed` of something of which `limit` are allowed.
+    /// Creates an error: `what` needs `needed`, but `limit` is allowed.
     pub(super) fn too_large(
         what: &str,
         needed: impl fmt::Display,
@@ -169,19 +169,19 @@ impl Fault {
         }
     }
 
-    /// The same fault with another cure.
+    /// Replaces the remedy.
     pub(super) fn with_cure(mut self, cure: impl Into<Cow<'static, str>>) -> Self {
         self.cure = cure.into();
         self
     }
 
-    /// The same fault with a place in the file.
+    /// Adds a byte offset.
     pub(super) fn at(mut self, byte: u64) -> Self {
         self.byte = Some(byte);
         self
     }
 
-    /// Names the file, and the grid where there is one.
+    /// Adds the name of the file and, if there is one, of the grid.
     pub(super) fn in_file(self, file: &str, grid: Option<&str>) -> VolumeError {
         let file = file.to_owned();
         let place = Place { grid: grid.map(str::to_owned), byte: self.byte };

@@ -1,17 +1,17 @@
-//! Bytes of a file, up to a limit.
+//! Reading of a whole file with a size limit.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::error::{Fault, VolumeError};
-use super::limits::Limits;
+use super::read_limits::ReadLimits;
 
-/// The whole file.
+/// Reads the whole file.
 ///
 /// # Errors
-/// It cannot be read, or is longer than [`Limits::max_file_bytes`].
-pub(super) fn read(path: &Path, limits: &Limits) -> Result<Vec<u8>, VolumeError> {
+/// When it cannot be read, or is longer than [`ReadLimits::max_file_bytes`].
+pub(super) fn read(path: &Path, limits: &ReadLimits) -> Result<Vec<u8>, VolumeError> {
     let label = path.display().to_string();
     let io_error = |source| VolumeError::Io { file: label.clone(), source };
     let file = File::open(path).map_err(io_error)?;

@@ -1,4 +1,4 @@
-//! The dense grid that every reader produces, and the checks that make it a density.
+//! Dense grid produced by the readers, and the checks for use as a density.
 
 use std::path::Path;
 
@@ -6,12 +6,12 @@ use glam::{DAffine3, DVec3};
 
 use super::error::{Place, VolumeError};
 
-/// Where in its voxel a value sits.
+/// Position of a value in its voxel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SampleConvention {
     /// At the integer index coordinates (OpenVDB).
     VertexCentred,
-    /// At index + 1/2: value i of n sits at (i + 1/2)/n of the box (NumPy, Mitsuba).
+    /// At index + 1/2: value i of n is at (i + 1/2)/n of the box (NumPy, Mitsuba).
     CellCentred,
 }
 
@@ -24,28 +24,28 @@ pub struct VoxelGrid {
     pub size: [usize; 3],
     /// Values per voxel: 1 or 3.
     pub channels: usize,
-    /// x fastest, then y, then z; channels interleaved. All finite.
+    /// Values, x fastest, then y, then z; channels interleaved. All finite.
     pub values: Vec<f32>,
     /// Index coordinates of the first voxel.
     pub min_index: [i32; 3],
-    /// The value of everything outside the box (of the first channel, where there are three).
+    /// Value outside the box (of the first channel, if there are three).
     pub background: f32,
     /// Maps index coordinates to world coordinates.
     pub world_from_index: DAffine3,
-    /// Where in its voxel a value sits.
+    /// Position of a value in its voxel.
     pub convention: SampleConvention,
-    /// Whether the file calls the grid a level set, that is, a signed distance.
+    /// Whether the file declares the grid a level set, that is, a signed distance.
     pub level_set: bool,
     /// NaN or infinite voxels that the reader set to 0.
     pub repaired: usize,
-    /// What is to be known about the file and the choice of the grid, as sentences that name the file.
+    /// Notices about the file and the choice of the grid, as sentences with the file name.
     pub notices: Vec<String>,
-    /// Voxels with a value below 0. See [`validate_density`].
+    /// Number of voxels with a negative value. See [`validate_density`].
     pub negative: usize,
 }
 
 impl VoxelGrid {
-    /// A grid of a format that holds one unnamed box of cell-centred values. Repairs and counts.
+    /// Creates a grid with one unnamed box of cell-centred values. Repairs and counts voxels.
     pub(super) fn cell_centred(
         size: [usize; 3],
         channels: usize,
@@ -70,8 +70,8 @@ impl VoxelGrid {
         grid
     }
 
-    /// The same from a file that does not say where it stands: voxels become cubes, the longest side
-    /// one world unit, and the corner of index (0, 0, 0) the origin.
+    /// Creates a grid for a file without a transformation: voxels are cubes, the longest side is one world
+    /// unit, and the corner of index (0, 0, 0) is the origin.
     pub(super) fn without_place(size: [usize; 3], channels: usize, values: Vec<f32>) -> Self {
         let longest = size.iter().fold(1, |longest, &n| longest.max(n)) as f64;
         Self::cell_centred(size, channels, values, DAffine3::from_scale(DVec3::splat(1.0 / longest)))
@@ -82,7 +82,7 @@ impl VoxelGrid {
         self.size.iter().product()
     }
 
-    /// The channels of voxel (x, y, z), counted from the corner of the box.
+    /// Channels of voxel (x, y, z), relative to the corner of the box.
     pub fn voxel(&self, [x, y, z]: [usize; 3]) -> Option<&[f32]> {
         let [nx, ny, nz] = self.size;
         if x >= nx || y >= ny || z >= nz {
@@ -95,13 +95,13 @@ impl VoxelGrid {
     /// First and last index coordinates, both inclusive: (min x, y, z, max x, y, z).
     pub fn index_bbox(&self) -> [i32; 6] {
         let [x, y, z] = self.min_index;
-        // Readers build no grid whose last index would leave the range of i32.
+        // Readers create no grid whose last index would exceed the range of i32.
         let last = |min: i32, n: usize| min.saturating_add(i32::try_from(n).unwrap_or(i32::MAX) - 1);
         let [nx, ny, nz] = self.size;
         [x, y, z, last(x, nx), last(y, ny), last(z, nz)]
     }
 
-    /// Least and greatest value, over all channels; `None` for an empty grid.
+    /// Smallest and largest value, over all channels; `None` for an empty grid.
     pub fn min_max(&self) -> Option<(f32, f32)> {
         self.values.iter().fold(None, |range, &v| match range {
             None => Some((v, v)),
@@ -115,8 +115,8 @@ impl VoxelGrid {
         sum / self.values.len().max(1) as f64
     }
 
-    /// The largest sum of values along any grid line, over axes and channels: the thickest line's
-    /// optical thickness, per unit of extinction and voxel edge.
+    /// Largest sum of values along any grid line, over axes and channels: the optical thickness of that line
+    /// per unit of extinction and voxel edge.
     pub fn thickest_line(&self) -> f32 {
         let [nx, ny, nz] = self.size;
         let mut thickest = 0.0f32;
@@ -141,8 +141,8 @@ impl VoxelGrid {
         thickest
     }
 
-    /// World coordinates of the box that the voxels fill: two opposite corners in index space,
-    /// each mapped to world. Axis-aligned only where `world_from_index` is.
+    /// World coordinates of two opposite corners of the box of voxels, each mapped from index space. The box
+    /// is axis-aligned in world space only if `world_from_index` is.
     pub fn world_corners(&self) -> (DVec3, DVec3) {
         let [x, y, z] = self.min_index;
         let min = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
@@ -154,7 +154,7 @@ impl VoxelGrid {
         (self.world_from_index.transform_point3(min), self.world_from_index.transform_point3(max))
     }
 
-    /// Sets voxels with a NaN or infinite channel to 0, and counts them and the negative ones.
+    /// Sets voxels with a NaN or infinite channel to 0, and counts these and the negative ones.
     pub(super) fn repair_and_count(&mut self) {
         for voxel in self.values.chunks_exact_mut(self.channels) {
             if voxel.iter().any(|v| !v.is_finite()) {
@@ -170,9 +170,9 @@ impl VoxelGrid {
     }
 }
 
-/// Checks that a grid can serve as a density: no value below 0.
+/// Checks that a grid can serve as a density, without negative values.
 ///
-/// Apart from the readers, so that a level set can still be described and shown.
+/// Separate from the readers, so that a level set can still be described and shown.
 ///
 /// # Errors
 /// [`VolumeError::NegativeDensity`] with the index of the first negative voxel in memory order.

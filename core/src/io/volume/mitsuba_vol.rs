@@ -18,24 +18,28 @@ use half::f16;
 use super::cursor::Cursor;
 use super::error::{Fault, VolumeError};
 use super::grid::VoxelGrid;
-use super::limits::{Limits, allocate};
 use super::npy::{chunks, data};
+use super::read_limits::{ReadLimits, allocate};
 
 /// First bytes of every `.vol` file.
 pub(super) const MAGIC: &[u8] = b"VOL";
 
 const VERSION: u8 = 3;
 
-/// Reads a `.vol` file in memory; `label` stands for its path in messages.
+/// Reads a `.vol` file in memory; `label` is its path in messages.
 ///
 /// # Errors
-/// The header is malformed, encoding or number of channels is another, the number of bytes does
-/// not fit, or the volume exceeds the limits.
-pub fn read_mitsuba_vol_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+/// When the header is malformed, the encoding or the number of channels is not supported, the number of bytes
+/// does not match, or the volume exceeds the limits.
+pub fn read_mitsuba_vol_bytes(
+    bytes: &[u8],
+    label: &str,
+    limits: &ReadLimits,
+) -> Result<VoxelGrid, VolumeError> {
     read(bytes, limits).map_err(|fault| fault.in_file(label, None))
 }
 
-fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
+fn read(bytes: &[u8], limits: &ReadLimits) -> Result<VoxelGrid, Fault> {
     let mut cursor = Cursor::new(bytes);
     if cursor.take(MAGIC.len()).ok() != Some(MAGIC) {
         return Err(Fault::invalid(0, "this is not a Mitsuba volume: it does not start with VOL"));
@@ -85,7 +89,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
     Ok(VoxelGrid::cell_centred(size, channels, values, world_from_index))
 }
 
-/// World from index: index (0, 0, 0) at the box's minimum, `size` at its maximum.
+/// World from index: index (0, 0, 0) at the minimum of the box, `size` at its maximum.
 fn bounding_box(cursor: &mut Cursor, size: [usize; 3]) -> Result<DAffine3, Fault> {
     let at = cursor.position();
     let mut corner = || {

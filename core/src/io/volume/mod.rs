@@ -1,10 +1,10 @@
-//! Volume files: OpenVDB, NumPy arrays, Mitsuba volumes and raw voxels, into a dense [`VoxelGrid`], or OpenVDB into
-//! the blocks that it holds ([`BlockGrid`]).
+//! Readers of volume files: OpenVDB, NumPy arrays, Mitsuba volumes and raw voxels, into a dense
+//! [`VoxelGrid`], or OpenVDB into sparse blocks ([`BlockGrid`]).
 //!
-//! A file is data from outside. Readers check every size before they use it, keep within
-//! [`Limits`], and refuse what they would not read exactly, with an error that names the file, the
-//! place and the cure ([`VolumeError`]). The one repair, NaN and infinite voxels set to 0, is
-//! counted in [`VoxelGrid::repaired`].
+//! Files are untrusted input. Readers check every size before they use it, respect [`ReadLimits`], and refuse
+//! files that they could not read exactly, with an error that states file, place and remedy
+//! ([`VolumeError`]). The only repair, NaN and infinite voxels set to 0, is counted in
+//! [`VoxelGrid::repaired`].
 //!
 //! To add a format: a file with a `read_bytes`, and one line each in the two matches on `Format`.
 
@@ -15,10 +15,10 @@ mod cursor;
 mod error;
 mod file;
 mod grid;
-mod limits;
 mod mitsuba_vol;
 mod npy;
 mod raw;
+mod read_limits;
 mod vdb;
 
 use std::path::Path;
@@ -27,18 +27,18 @@ pub use blocks::{BLOCK, BLOCK_EDGE, BlockGrid, ConstantTile, Volume};
 pub use choice::{GridChoice, GridRole};
 pub use error::{Place, VolumeError};
 pub use grid::{SampleConvention, VoxelGrid, validate_density};
-pub use limits::Limits;
 pub use mitsuba_vol::read_mitsuba_vol_bytes;
 pub use npy::read_npy_bytes;
 pub use raw::read_raw_bytes;
+pub use read_limits::ReadLimits;
 pub use vdb::{Background, FileInfo, GridInfo, file_info, info, info_bytes, read_vdb, read_vdb_bytes};
 
 use error::Fault;
 
-/// Extensions of the formats that are read.
+/// Extensions of the supported formats.
 pub const EXTENSIONS: &[&str] = &["vdb", "npy", "vol", "raw"];
 
-/// The formats that are read.
+/// Supported formats.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
     OpenVdb,
@@ -48,7 +48,7 @@ enum Format {
 }
 
 impl Format {
-    /// By the extension of the file name, or else by the first bytes.
+    /// Format by the extension of the file name, or else by the first bytes.
     fn of(label: &str, bytes: &[u8]) -> Option<Self> {
         let extension = Path::new(label).extension().and_then(|extension| extension.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -66,30 +66,29 @@ impl Format {
 
 /// Reads a volume file of any supported format: `.vdb`, `.npy`, `.vol`, `.raw`.
 ///
-/// `grid` chooses a grid of an OpenVDB file; see [`read_vdb`]. The other formats hold one unnamed
-/// grid.
+/// `grid` selects a grid of an OpenVDB file; see [`read_vdb`]. The other formats contain one unnamed grid.
 ///
 /// # Errors
-/// The file is missing, of an unknown format, damaged, too large, or has no such grid.
-pub fn read_volume(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+/// When the file is missing, of an unknown format, damaged, too large, or has no such grid.
+pub fn read_volume(path: &Path, grid: Option<&str>, limits: &ReadLimits) -> Result<VoxelGrid, VolumeError> {
     read_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
 }
 
-/// Reads a volume file of any supported format without filling what is empty, where the format allows it, telling
-/// `watch` the share that is done, from 0 to 1, as it rises.
+/// Reads a volume file of any supported format, as sparse blocks where the format allows it, and reports the
+/// completed fraction, from 0 to 1, to `watch`.
 ///
 /// # Errors
 /// As [`read_volume`].
 pub fn read_sparse_volume<'a>(
     path: &Path,
     grid: impl Into<GridChoice<'a>>,
-    limits: &Limits,
+    limits: &ReadLimits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
     read_sparse_volume_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits, watch)
 }
 
-/// [`read_volume`] for a file in memory; `label` stands for its path, extension included.
+/// [`read_volume`] for a file in memory; `label` is its path, with the extension.
 ///
 /// # Errors
 /// As [`read_volume`].
@@ -97,7 +96,7 @@ pub fn read_volume_bytes(
     bytes: &[u8],
     label: &str,
     grid: Option<&str>,
-    limits: &Limits,
+    limits: &ReadLimits,
 ) -> Result<VoxelGrid, VolumeError> {
     read_array(format_of(bytes, label, grid)?, bytes, label, grid, limits)
 }
@@ -110,7 +109,7 @@ pub fn read_sparse_volume_bytes<'a>(
     bytes: &[u8],
     label: &str,
     grid: impl Into<GridChoice<'a>>,
-    limits: &Limits,
+    limits: &ReadLimits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
     let grid = grid.into();
@@ -120,7 +119,7 @@ pub fn read_sparse_volume_bytes<'a>(
     }
 }
 
-/// The format of a file, in which a grid may have been named.
+/// Format of a file, and a check that it can have a grid of this name.
 fn format_of(bytes: &[u8], label: &str, grid: Option<&str>) -> Result<Format, VolumeError> {
     let Some(format) = Format::of(label, bytes) else {
         let what = "this file format";
@@ -142,7 +141,7 @@ fn read_array(
     bytes: &[u8],
     label: &str,
     grid: Option<&str>,
-    limits: &Limits,
+    limits: &ReadLimits,
 ) -> Result<VoxelGrid, VolumeError> {
     match format {
         Format::OpenVdb => read_vdb_bytes(bytes, label, grid, limits),

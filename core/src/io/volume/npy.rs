@@ -1,25 +1,25 @@
 //! NumPy `.npy` arrays of shape (z, y, x) or (z, y, x, 3).
 //!
-//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1
-//! to 3: magic, version, header length, a Python dictionary as text, then the values.
-//! Element types: little-endian float16, float32, float64, and uint8 (taken as 0 to 255).
+//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3: magic,
+//! version, header length, a Python dictionary as text, then the values. Element types: little-endian
+//! float16, float32, float64, and uint8 (values 0 to 255).
 //!
-//! An array has no place in space; see [`VoxelGrid::without_place`].
+//! An array has no transformation; see [`VoxelGrid::without_place`].
 
 use half::f16;
 
 use super::cursor::Cursor;
 use super::error::{Fault, VolumeError};
 use super::grid::VoxelGrid;
-use super::limits::{Limits, allocate};
+use super::read_limits::{ReadLimits, allocate};
 
 /// First bytes of every `.npy` file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Longest header accepted, in bytes. NumPy writes 118 for a plain array.
+/// Maximum length of the header in bytes. NumPy writes 118 for a plain array.
 const MAX_HEADER_BYTES: usize = 1 << 16;
 
-/// Element types that are read.
+/// Supported element types.
 #[derive(Debug, Clone, Copy)]
 enum Element {
     F16,
@@ -28,24 +28,24 @@ enum Element {
     U8,
 }
 
-/// What the header dictionary says.
+/// Contents of the header dictionary.
 struct Header {
     element: Element,
-    /// x, y, z.
+    /// Voxels along x, y, z.
     size: [usize; 3],
     channels: usize,
 }
 
-/// Reads a `.npy` file in memory; `label` stands for its path in messages.
+/// Reads a `.npy` file in memory; `label` is its path in messages.
 ///
 /// # Errors
-/// The header is malformed, the shape, order or element type is another, the number of bytes does
-/// not fit, or the array exceeds the limits.
-pub fn read_npy_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+/// When the header is malformed, the shape, order or element type is not supported, the number of bytes does
+/// not match, or the array exceeds the limits.
+pub fn read_npy_bytes(bytes: &[u8], label: &str, limits: &ReadLimits) -> Result<VoxelGrid, VolumeError> {
     read(bytes, limits).map_err(|fault| fault.in_file(label, None))
 }
 
-fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
+fn read(bytes: &[u8], limits: &ReadLimits) -> Result<VoxelGrid, Fault> {
     let mut cursor = Cursor::new(bytes);
     let Header { element, size, channels } = header(&mut cursor)?;
     let len = limits.dense_values(size.map(|n| n as u64), channels)?;
@@ -60,7 +60,7 @@ fn read(bytes: &[u8], limits: &Limits) -> Result<VoxelGrid, Fault> {
     Ok(VoxelGrid::without_place(size, channels, values))
 }
 
-/// The rest of the file, which must be exactly `len` elements.
+/// Reads the rest of the file, which must be exactly `len` elements.
 pub(super) fn data<'a>(cursor: &mut Cursor<'a>, len: usize, element_bytes: usize) -> Result<&'a [u8], Fault> {
     let (expected, actual) = (len.saturating_mul(element_bytes), cursor.remaining());
     if expected != actual {
@@ -72,7 +72,7 @@ pub(super) fn data<'a>(cursor: &mut Cursor<'a>, len: usize, element_bytes: usize
     cursor.take(actual)
 }
 
-/// The bytes in groups of `N`; a rest is left out.
+/// Splits bytes into groups of `N`; an incomplete group is dropped.
 pub(super) fn chunks<const N: usize>(data: &[u8]) -> impl Iterator<Item = [u8; N]> + '_ {
     data.chunks_exact(N).map(|chunk| {
         let mut bytes = [0; N];
@@ -154,18 +154,18 @@ fn header(cursor: &mut Cursor) -> Result<Header, Fault> {
     Ok(Header { element: Element::of(descr)?, size, channels })
 }
 
-/// What follows `'key':` in the header dictionary.
+/// Text after `'key':` in the header dictionary.
 fn value_of<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let (_, behind) = text.split_once(&format!("'{key}'"))?;
     Some(behind.trim_start().strip_prefix(':')?.trim_start())
 }
 
-/// The text between quotation marks.
+/// Text between quotation marks.
 fn quoted(text: &str) -> Option<&str> {
     text.strip_prefix('\'')?.split_once('\'').map(|(inside, _)| inside)
 }
 
-/// The numbers of a tuple such as `(3, 4, 5)`.
+/// Numbers of a tuple such as `(3, 4, 5)`.
 fn tuple(text: &str) -> Option<Vec<usize>> {
     let (inside, _) = text.strip_prefix('(')?.split_once(')')?;
     let items = inside.split(',').map(str::trim).filter(|item| !item.is_empty());

@@ -1,28 +1,28 @@
-//! Raw float32 voxels without any header, x fastest, then y, then z, little-endian.
+//! Raw float32 voxels without a header, x fastest, then y, then z, little-endian.
 //!
-//! Such a file says nothing of itself: its name has to hold the size, x × y × z, as in
-//! `smoke_64x64x96.raw`. Place in space as for `.npy`.
+//! The size is part of the file name, x × y × z, as in `smoke_64x64x96.raw`. The transformation is that of
+//! `.npy` files.
 
 use std::path::Path;
 
 use super::cursor::Cursor;
 use super::error::{Fault, VolumeError};
 use super::grid::VoxelGrid;
-use super::limits::{Limits, allocate};
 use super::npy::{chunks, data};
+use super::read_limits::{ReadLimits, allocate};
 
-/// Reads a raw file in memory; `label` stands for its path, size included.
+/// Reads a raw file in memory; `label` is its path, with the size.
 ///
 /// # Errors
-/// The name holds no size, or the number of bytes is another, or the grid exceeds the limits.
-pub fn read_raw_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+/// When the name contains no size, the number of bytes does not match, or the grid exceeds the limits.
+pub fn read_raw_bytes(bytes: &[u8], label: &str, limits: &ReadLimits) -> Result<VoxelGrid, VolumeError> {
     read(bytes, label, limits).map_err(|fault| fault.in_file(label, None))
 }
 
-fn read(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, Fault> {
+fn read(bytes: &[u8], label: &str, limits: &ReadLimits) -> Result<VoxelGrid, Fault> {
     let size = size_in_name(label).ok_or_else(|| {
         let cure = "Put the size into the name, x × y × z: smoke_64x64x96.raw";
-        Fault::unsupported("a raw file whose name does not say its size", cure)
+        Fault::unsupported("a raw file without the size in its name", cure)
     })?;
     let len = limits.dense_values(size.map(|n| n as u64), 1)?;
     let mut cursor = Cursor::new(bytes);
@@ -32,7 +32,7 @@ fn read(bytes: &[u8], label: &str, limits: &Limits) -> Result<VoxelGrid, Fault> 
     Ok(VoxelGrid::without_place(size, 1, values))
 }
 
-/// The last `NxNxN` in a file's name.
+/// The last `NxNxN` in a file name.
 fn size_in_name(label: &str) -> Option<[usize; 3]> {
     let stem = Path::new(label).file_stem()?.to_str()?;
     let words = stem.split(|c: char| !(c.is_ascii_digit() || c == 'x'));
@@ -59,7 +59,7 @@ mod tests {
     #[test]
     fn voxels_are_read_x_fastest_and_counted() {
         let bytes: Vec<u8> = (0..6u8).flat_map(|i| f32::from(i).to_le_bytes()).collect();
-        let read = |label| read_raw_bytes(&bytes, label, &Limits::default());
+        let read = |label| read_raw_bytes(&bytes, label, &ReadLimits::default());
         let grid = read("r_3x2x1.raw").unwrap();
         assert_eq!(grid.voxel([2, 1, 0]), Some(&[5.0][..]));
         let message = read("r_3x2x2.raw").unwrap_err().to_string();

@@ -22,7 +22,7 @@ mod pair;
 
 use super::average::average_pixels;
 use super::picture::is_finite;
-use super::{Measure, MeasureError, Measured, Picture, Reference, Region};
+use super::{Measure, MeasureError, Measured, Picture, ReferencePicture, Region};
 use colour::{aces, clamped, each};
 use exposure::exposures;
 use pair::Pair;
@@ -48,7 +48,7 @@ const BRIGHTEST: f32 = 1e15;
 ///
 /// # Errors
 /// Picture and reference differ in size.
-fn flip(picture: &Picture, reference: &Reference, region: Region) -> Result<Measured, MeasureError> {
+fn flip(picture: &Picture, reference: &ReferencePicture, region: Region) -> Result<Measured, MeasureError> {
     let map = map(picture, &reference.picture)?;
     average_pixels(reference, region, |i| is_finite(picture.pixels[i]), |i, _| (f64::from(map[i]), 0.0))
 }

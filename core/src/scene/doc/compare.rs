@@ -20,45 +20,23 @@ pub struct CompareDoc {
     pub reference: ReferenceDoc,
     /// Which view speed-ups are relative to, from 0.
     pub baseline: usize,
-    /// How the views share the window.
-    pub arrangement: Arrangement,
-    /// The two views of a wipe, a difference or a z-map.
-    pub pair: Pair,
-    /// What is shown of every view: `picture`, or the id of a map.
-    pub layer: Layer,
     /// The measure of error, by its id.
     pub measure: MeasureId,
     /// The pixels that numbers are about, x0, y0, x1, y1 (half open). Absent: all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<[u32; 4]>,
-    /// Whether every view has a zoom of its own.
-    pub own_zoom: bool,
-}
-
-/// Two different views, from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Pair(pub usize, pub usize);
-
-impl Default for Pair {
-    fn default() -> Self {
-        Self(0, 1)
-    }
-}
-
-/// The id of what is shown of a view.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Layer(pub String);
-
-impl Layer {
-    /// The rendered picture.
-    pub const PICTURE: &'static str = "picture";
-}
-
-impl Default for Layer {
-    fn default() -> Self {
-        Self(Self::PICTURE.into())
-    }
+    /// Earlier place of `window.arrangement`.
+    #[serde(skip_serializing)]
+    pub arrangement: Option<toml::Value>,
+    /// Earlier place of `window.pair`.
+    #[serde(skip_serializing)]
+    pub pair: Option<toml::Value>,
+    /// Earlier place of `window.layer`.
+    #[serde(skip_serializing)]
+    pub layer: Option<toml::Value>,
+    /// Earlier place of `window.own_zoom`.
+    #[serde(skip_serializing)]
+    pub own_zoom: Option<toml::Value>,
 }
 
 /// The id of a measure of error.
@@ -170,25 +148,28 @@ impl From<Written> for ReferenceDoc {
     }
 }
 
-/// How the views share the window.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Arrangement {
-    /// Side by side.
-    #[default]
-    Grid,
-    /// Two over each other, with a divider.
-    Wipe,
-    /// One at a time.
-    Flip,
-    /// What two differ by.
-    Difference,
-}
-
 /// Random numbers of a reference that no view is given by default.
 const REFERENCE_SEED: u64 = 0x5eed_0000;
 
 impl SceneDoc {
+    /// Moves the window's keys that earlier versions kept under `compare` to `window`.
+    #[must_use]
+    pub fn with_window_keys_moved(mut self) -> Self {
+        let compare = &mut self.compare;
+        let earlier = [
+            ("arrangement", compare.arrangement.take()),
+            ("pair", compare.pair.take()),
+            ("layer", compare.layer.take()),
+            ("own_zoom", compare.own_zoom.take()),
+        ];
+        for (key, value) in earlier {
+            if let Some(value) = value {
+                self.window.insert(key.into(), value);
+            }
+        }
+        self
+    }
+
     /// Views of the scene, its own counted.
     #[must_use]
     pub fn view_count(&self) -> usize {
@@ -199,7 +180,7 @@ impl SceneDoc {
     /// such view.
     #[must_use]
     pub fn view_doc(&self, view: usize) -> Option<Self> {
-        let mut doc = Self { compare: CompareDoc::default(), ..self.clone() };
+        let mut doc = Self { compare: CompareDoc::default(), window: toml::Table::new(), ..self.clone() };
         if view == 0 {
             return Some(doc);
         }
@@ -226,7 +207,7 @@ impl SceneDoc {
     /// the scene's.
     #[must_use]
     pub fn with_view_doc(&self, view: usize, edited: &Self) -> Self {
-        let mut doc = Self { compare: self.compare.clone(), ..edited.clone() };
+        let mut doc = Self { compare: self.compare.clone(), window: self.window.clone(), ..edited.clone() };
         if view == 0 {
             return doc;
         }

@@ -19,9 +19,7 @@ pub use crate::medium::{MajorantDoc, WhenExceeded};
 pub use crate::phase::{Angle, PhaseDoc};
 pub use camera::{CameraDoc, FilmDoc};
 pub use coefficients::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS};
-pub use compare::{
-    Arrangement, CompareDoc, ContenderDoc, Fairness, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc,
-};
+pub use compare::{CompareDoc, ContenderDoc, Fairness, MAX_VIEWS, MeasureId, ReferenceDoc};
 pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
     LightSampling, LightWalk, Mode, Tracking,
@@ -76,6 +74,9 @@ pub struct SceneDoc {
     /// Further views of the scene, side by side.
     #[serde(default, skip_serializing_if = "is_default")]
     pub compare: CompareDoc,
+    /// State of the window, kept for the application; nothing here reads it.
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
+    pub window: toml::Table,
 }
 
 fn is_default(compare: &CompareDoc) -> bool {
@@ -97,6 +98,7 @@ impl Default for SceneDoc {
             render: RenderDoc { spp: Some(1024), ..RenderDoc::default() },
             view: ViewDoc::default(),
             compare: CompareDoc::default(),
+            window: toml::Table::new(),
         }
     }
 }

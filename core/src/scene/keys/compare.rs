@@ -66,27 +66,6 @@ pub(super) const KEYS: &[Key] = &[
         .kinds(&["file"]),
     key("compare.baseline", VIEW, Is("0"), "Baseline", "The view that speed-ups are relative to, from 0"),
     key(
-        "compare.arrangement",
-        Type::Choice(&["grid", "wipe", "flip", "difference"]),
-        Is("\"grid\""),
-        "Arrangement",
-        "How the views share the window",
-    ),
-    key(
-        "compare.pair",
-        Type::Integers(2, Range::closed(0.0, u32::MAX as f64)),
-        Is("[0, 1]"),
-        "Pair",
-        "The two views of a wipe or difference",
-    ),
-    key(
-        "compare.layer",
-        Type::Text,
-        Is("\"picture\""),
-        "Layer",
-        "What is shown of every view: `picture`, or a map",
-    ),
-    key(
         "compare.measure",
         Type::Id(Registry::Measures),
         Is("\"relmse\""),
@@ -101,7 +80,6 @@ pub(super) const KEYS: &[Key] = &[
         "The pixels that numbers are about: x0, y0, x1, y1, half open",
     )
     .unit("px"),
-    key("compare.own_zoom", Type::Bool, Is("false"), "Own zoom", "Whether every view has a zoom of its own"),
 ];
 
 /// Where a view keeps what it has of its own, and where the scene has it.

@@ -21,6 +21,7 @@ mod render;
 #[cfg(test)]
 mod tests;
 mod text;
+mod window;
 
 pub use biases::Bias;
 pub use part::{Leaf, changed, leaves};
@@ -314,6 +315,7 @@ pub fn all() -> &'static [Key] {
         let mut all = [own, phase::keys(), [lights::KEYS, estimator::KEYS, render::KEYS].concat()].concat();
         all.extend(compare::KEYS);
         all.extend(compare::of_views(&all));
+        all.extend(window::KEYS);
         all
     })
 }

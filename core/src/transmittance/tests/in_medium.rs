@@ -1,4 +1,5 @@
-//! Rays through media, against quadrature along the same ray: majorants, means and gaps are the adapter's.
+//! Rays through media against quadrature along the same ray; majorants, means and gaps are those of
+//! [`InMedium`].
 
 use super::*;
 use crate::math::{BoxRay, Ray};
@@ -9,7 +10,7 @@ use std::sync::Arc;
 
 const SIZE: usize = 12;
 
-/// Noise, empty in the middle third.
+/// Grid of noise, empty in the middle third.
 fn grid<const C: usize>() -> Arc<Grid<C>> {
     let mut random = Sampler::new(4, 0, 0);
     let value = |i: usize| {
@@ -71,7 +72,7 @@ fn rays_through_a_density_have_the_transmittance_of_their_quadrature() {
         (6, 1.0, false, weighted),
         (6, 1.0, true, weighted),
         (12, 0.7, false, weighted),
-        // Cut off at the majorant, a medium has a transmittance too.
+        // The clamped medium has a transmittance of its own.
         (6, 0.5, false, WhenExceeded::Clamp),
     ] {
         let doc = MajorantDoc { factor, shared, when_exceeded, ..MajorantDoc::default() };

@@ -1,14 +1,15 @@
-//! Every technique against closed forms.
+//! Comparison of every technique with closed forms.
 
 mod in_medium;
 
 use super::*;
 use crate::spectrum::Sampled;
 
-/// Standard errors that a mean may be off. Seeds are fixed: whatever passes once passes always.
+/// Largest accepted deviation of a mean, in standard errors. Seeds are fixed, so that the tests are
+/// deterministic.
 const LIMIT: f64 = 4.0;
 
-/// Mean, its standard error and mean look-ups of an estimator.
+/// Mean of an estimator, its standard error, and the mean number of look-ups.
 struct Measured<const N: usize> {
     mean: [f64; N],
     error: [f64; N],
@@ -34,7 +35,7 @@ impl<const N: usize> Measured<N> {
         Self { mean, error, lookups: lookups / n }
     }
 
-    /// The largest deviation in standard errors. Single precision is granted one part in 10⁵.
+    /// Largest deviation in standard errors, with a tolerance of one part in 10⁵ for single precision.
     fn deviation(&self, truth: [f64; N]) -> f64 {
         let each = (0..N).map(|c| {
             let off = (self.mean[c] - truth[c]).abs();
@@ -43,7 +44,7 @@ impl<const N: usize> Measured<N> {
         each.fold(0.0, f64::max)
     }
 
-    /// The largest standard error relative to the truth: what bias could have been seen.
+    /// Largest standard error relative to the truth: the bias that could be detected.
     fn blur(&self, truth: [f64; N]) -> f64 {
         (0..N).map(|c| self.error[c] / truth[c]).fold(0.0, f64::max)
     }
@@ -59,7 +60,7 @@ fn holds<const N: usize>(kind: TransmittanceKind, profile: &Analytic<N>, samples
     let what =
         format!("{} {profile:?}: {:?} ± {:?}, not {truth:?}", kind.entry().id, found.mean, found.error);
     assert!(found.deviation(truth) < LIMIT, "{what}");
-    assert!(found.blur(truth) < blur, "too noisy to tell: {what}");
+    assert!(found.blur(truth) < blur, "too noisy to decide: {what}");
 }
 
 #[test]
@@ -80,9 +81,9 @@ fn unbiased_techniques_have_the_transmittance_as_their_mean() {
 fn components_that_share_their_look_ups_each_have_their_own_mean() {
     for kind in unbiased() {
         for cells in [1, 6] {
-            // In proportion, the hero neither the thinnest nor the thickest.
+            // Proportional components, with a hero neither the thinnest nor the densest.
             holds(kind, &Analytic::new(Shape::Gaussian, [6.0, 2.0, 9.0, 4.0], cells), 100_000, 0.03);
-            // Every component a medium of its own.
+            // A different medium for every component.
             let components = [(Shape::Ramp, 3.0), (Shape::Cosine, 2.0), (Shape::Hole, 1.5)];
             let profile = Analytic { components, length: 1.3, cells, majorant_factor: 1.2 };
             holds(kind, &profile, 100_000, 0.03);
@@ -106,7 +107,7 @@ fn majorants_that_do_not_bound_leave_the_mean_alone() {
     }
 }
 
-/// A length that is not that of the majorant's block, cut many times.
+/// Length and depth beyond those of one block, with many cells.
 #[test]
 fn long_and_dense_rays_through_many_cells_come_out_right() {
     let components = [(Shape::Cosine, 0.35), (Shape::Cosine, 0.3)];
@@ -142,7 +143,7 @@ fn empty_rays_pass_everything_and_cost_nothing() {
     }
 }
 
-/// The bias is seen at a coarse step and is gone at a fine one.
+/// The bias is significant at a coarse step and negligible at a fine one.
 #[test]
 fn marching_is_biased_by_its_step() {
     let profile = Analytic::new(Shape::Cosine, [6.0], 1);
@@ -153,19 +154,19 @@ fn marching_is_biased_by_its_step() {
     };
     let coarse = at(0.34, Offset::Jittered);
     assert!(coarse.deviation(truth) > 20.0, "{}", coarse.deviation(truth));
-    // By Jensen's inequality it is too bright.
+    // By Jensen's inequality the estimate is too bright.
     assert!(coarse.mean[0] > truth[0] + 10.0 * coarse.error[0]);
     let fine = at(0.002, Offset::Jittered);
     assert!(fine.deviation(truth) < LIMIT, "{}", fine.deviation(truth));
     let bias = |found: Measured<1>| (found.mean[0] / truth[0] - 1.0).abs();
     assert!(bias(fine) < 0.01 * bias(coarse));
-    // What is called unbiased is not caught by the same judgement at the same price.
+    // The unbiased variant passes the same test at a similar cost.
     let other = UnbiasedMarching::default();
     let found = Measured::of(200_000, 5, |sampler| other.estimate(&profile, sampler));
     assert!(found.deviation(truth) < LIMIT && found.blur(truth) < 0.01);
 }
 
-/// Without random numbers the bias is all there is.
+/// Without random numbers the only error is the bias.
 #[test]
 fn marching_by_midpoints_is_one_number_and_wrong() {
     let profile = Analytic::new(Shape::Gaussian, [8.0], 1);
@@ -180,7 +181,7 @@ fn marching_by_midpoints_is_one_number_and_wrong() {
     assert_eq!((three, many), (3, 500));
 }
 
-/// Profiles that answer wrongly by 2 % stand for weights that are wrong: the judgement sees it under every technique.
+/// Profiles wrong by 2 % stand for wrong weights; the test detects them under every technique.
 #[test]
 fn a_weight_that_is_wrong_by_two_percent_is_seen() {
     #[derive(Clone, Copy)]
@@ -203,7 +204,7 @@ fn a_weight_that_is_wrong_by_two_percent_is_seen() {
     }
 }
 
-/// What the entries promise of variance: weights beat decisions, marching beats both.
+/// Order of variances by the entries' summaries: weights beat decisions, and marching beats both.
 #[test]
 fn techniques_keep_the_order_of_their_variances() {
     let profile = Analytic::new(Shape::Gaussian, [8.0], 8);
@@ -217,7 +218,7 @@ fn techniques_keep_the_order_of_their_variances() {
     assert!(ratio.error[0] < 0.8 * delta.error[0]);
     assert!(residual.error[0] < 0.8 * ratio.error[0] && residual.lookups < ratio.lookups);
     assert!(marching.error[0] < 0.3 * ratio.error[0], "{} {}", marching.error[0], ratio.error[0]);
-    // Delta tracking is a coin.
+    // Delta tracking returns 0 or 1.
     let coin = (truth[0] * (1.0 - truth[0]) / 39_999.0).sqrt();
     assert!((delta.error[0] / coin - 1.0).abs() < 0.02);
     // Ratio tracking looks up once per unit of majorant depth.

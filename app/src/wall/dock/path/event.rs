@@ -1,9 +1,8 @@
 //! One event in full: what decided it, and its books at every component.
 
-use super::events::colour;
 use crate::theme::Palette;
-use egui::{Grid, Label, RichText, ScrollArea, Ui};
-use majorant_core::inspect::{Ledger, Row, Step};
+use egui::{Color32, Grid, Label, RichText, ScrollArea, Ui};
+use majorant_core::inspect::{Branch, Ledger, Row, Step};
 use majorant_core::spectrum::Carried;
 
 pub(super) fn event_ui(ui: &mut Ui, row: &Row, kept_names: [&str; 3], ledger: &Ledger) {
@@ -107,5 +106,18 @@ fn short(value: f32) -> String {
         0.0 => "0".to_owned(),
         size if (1e-3..1e5).contains(&size) => format!("{value:.4}"),
         _ => format!("{value:.2e}"),
+    }
+}
+
+/// The colour of an event, in space and in the table.
+pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
+    match (row.step, row.branch) {
+        (Step::Credit, _) => palette.warning,
+        (Step::Absorb | Step::Die(_), _) => palette.error,
+        (Step::Null, Branch::Path | Branch::LightWalk) => palette.weak,
+        (Step::Null, _) => Color32::from_rgb(196, 140, 88),
+        (Step::Scatter | Step::Reflect, _) => palette.accent,
+        (Step::Connect(..) | Step::Dark | Step::Transmittance, _) => Color32::from_rgb(228, 138, 62),
+        _ => palette.text,
     }
 }

@@ -1,25 +1,12 @@
 //! The ledger: event by event what the path contributes and how likely it is, and what light that adds.
 
 use super::super::Cx;
-use super::event::event_ui;
+use super::event::{colour, event_ui};
 use crate::theme::Palette;
 use crate::wall::inspector::Replayed;
 use egui::{Align, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
-use majorant_core::inspect::{Branch, Row, Step};
-
-/// The colour of an event, in space and in the table.
-pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
-    match (row.step, row.branch) {
-        (Step::Credit, _) => palette.warning,
-        (Step::Absorb | Step::Die(_), _) => palette.error,
-        (Step::Null, Branch::Path | Branch::LightWalk) => palette.weak,
-        (Step::Null, _) => Color32::from_rgb(196, 140, 88),
-        (Step::Scatter | Step::Reflect, _) => palette.accent,
-        (Step::Connect(..) | Step::Dark | Step::Transmittance, _) => Color32::from_rgb(228, 138, 62),
-        _ => palette.text,
-    }
-}
+use majorant_core::inspect::{Branch, Row};
 
 pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let palette = Palette::get(ui);

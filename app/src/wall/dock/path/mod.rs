@@ -9,7 +9,7 @@ mod segment;
 mod space;
 
 use super::{Cx, Tab, empty};
-use crate::lab::Command;
+use crate::model::Command;
 use crate::theme::Palette;
 use crate::wall::inspector::{PathQuestion, Replayed};
 use egui::{Button, ComboBox, Key, Layout, RichText, Ui, UiBuilder};
@@ -140,10 +140,10 @@ fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>>
         sample: at.sample,
         estimator: entry.id,
     };
-    let answer = state.errand.ask(
+    let answer = state.query.ask(
         &question,
         move || {
-            if let Some(ctx) = wake {
+            if let Some(ctx) = &wake {
                 ctx.request_repaint();
             }
         },

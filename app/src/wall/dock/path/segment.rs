@@ -1,7 +1,7 @@
 //! What the chosen event's ray leads through: extinction, majorant, and the collisions along it.
 
 use super::super::Cx;
-use super::events::colour;
+use super::event::colour;
 use crate::theme::Palette;
 use crate::wall::inspector::{Replayed, Segment};
 use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2};

@@ -1,7 +1,7 @@
 //! The path in space: box, lights, events by kind; turned by dragging.
 
 use super::super::Cx;
-use super::events::colour;
+use super::event::colour;
 use crate::theme::Palette;
 use crate::view::camera_control::{dolly, orbit};
 use crate::wall::inspector::Replayed;

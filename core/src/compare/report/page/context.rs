@@ -1,4 +1,4 @@
-//! What the page's template is filled with: every number as text.
+//! Template context of the page, with every number as text.
 
 use super::gallery::{Layer, layers};
 use super::ranking::{Line, ranking, summary};
@@ -11,7 +11,7 @@ use crate::measure::{self, MEASURES};
 use crate::scene::Fairness;
 use serde::Serialize;
 
-/// The whole page.
+/// Context of the whole page.
 #[derive(Serialize)]
 pub(super) struct Context {
     title: String,
@@ -20,16 +20,16 @@ pub(super) struct Context {
     size: String,
     against: String,
     fairness: &'static str,
-    /// What every view had, if all had the same.
+    /// Budget of the views, if it was the same for all.
     budget: Option<String>,
-    /// Pictures side by side, at most.
+    /// Maximum number of images in a row.
     columns: usize,
     threads: usize,
     region: Option<String>,
     summary: String,
     /// Whether errors were measured.
     errors: bool,
-    /// The measure that the comparison is about, unless the table has it anyway.
+    /// Selected measure, unless it is a column of the table anyway.
     other_measure: Option<&'static str>,
     ranking: Vec<Line>,
     layers: Vec<Layer>,
@@ -103,7 +103,7 @@ fn budget(gathered: &Gathered<'_>) -> Option<String> {
     gathered.experiment.doc.render.cpu_seconds.map(|s| format!("{} CPU seconds", words::tick(s.into())))
 }
 
-/// As few rows as leave the pictures large enough, and none of a single picture.
+/// Number of columns: few rows, with images that are large enough, and no row with a single image.
 fn columns(pictures: usize) -> usize {
     match pictures {
         0 => 1,
@@ -113,7 +113,7 @@ fn columns(pictures: usize) -> usize {
     }
 }
 
-/// The measures that the page shows.
+/// Measures shown on the page.
 fn measures(gathered: &Gathered<'_>) -> Vec<Definition> {
     let shown = ["relmse", gathered.measure.id];
     let shown = MEASURES.iter().filter(|m| shown.contains(&m.id));

@@ -1,4 +1,4 @@
-//! The pictures of the page, layer by layer, each in the document itself.
+//! Image layers of the page, embedded as data URLs.
 
 use crate::compare::Standing;
 use crate::compare::maps::{Map, Range};
@@ -7,7 +7,7 @@ use crate::compare::report::{pictures, words};
 use base64::Engine;
 use serde::Serialize;
 
-/// What of every view is shown at once.
+/// One image or map of every view.
 #[derive(Serialize)]
 pub(super) struct Layer {
     id: String,
@@ -28,10 +28,10 @@ struct Picture {
     height: usize,
 }
 
-/// A bar of colours with its numbers.
+/// A colour bar with its ticks.
 #[derive(Serialize)]
 struct Legend {
-    /// Colours in steps of equal width.
+    /// CSS colour stops of equal spacing.
     gradient: String,
     ticks: Vec<Tick>,
 }
@@ -42,12 +42,11 @@ struct Tick {
     text: String,
 }
 
-/// The pictures, and every map that some view has.
+/// The images, and every map that some view has.
 pub(super) fn layers(gathered: &Gathered<'_>) -> Result<Vec<Layer>, String> {
     let mut pictures = Vec::new();
     for (shown, standing) in gathered.views.iter().zip(&gathered.standings) {
-        let alt =
-            format!("The scene as {} has rendered it, {} samples per pixel", standing.name, standing.spp);
+        let alt = format!("The scene rendered by {}, {} samples per pixel", standing.name, standing.spp);
         pictures.push(picture(shown, standing, alt, pictures::picture(shown)?));
     }
     if let (Some(reference), Some(png)) = (gathered.reference(), pictures::reference(gathered)) {
@@ -60,7 +59,7 @@ pub(super) fn layers(gathered: &Gathered<'_>) -> Result<Vec<Layer>, String> {
             height: reference.height,
         });
     }
-    let formula = "as the scene is shown".into();
+    let formula = "tone-mapped with the view settings of the scene".into();
     let mut layers =
         vec![Layer { id: "picture".into(), name: "Picture".into(), formula, legend: None, images: pictures }];
     for (map, range) in &gathered.maps {
@@ -96,7 +95,7 @@ fn base64(bytes: &[u8]) -> String {
     base64::engine::general_purpose::STANDARD.encode(bytes)
 }
 
-/// Steps of the gradient.
+/// Number of intervals of the gradient.
 const STEPS: u8 = 32;
 
 fn legend(range: &Range) -> Legend {

@@ -1,4 +1,4 @@
-//! The table of the page, and what came of it in words.
+//! Ranking table of the page, and its summary.
 
 use crate::compare::report::gather::Gathered;
 use crate::compare::report::{plot, words};
@@ -27,7 +27,7 @@ pub(super) struct Line {
     kind: String,
 }
 
-/// The most efficient first, the biased last.
+/// Lines sorted by efficiency in descending order, with biased views last.
 pub(super) fn ranking(gathered: &Gathered<'_>) -> Vec<Line> {
     let mut order: Vec<(usize, &Standing)> = gathered.standings.iter().enumerate().collect();
     order.sort_by(|(_, a), (_, b)| {
@@ -61,11 +61,11 @@ fn error(standing: &Standing, id: &str) -> String {
     standing.error(id).map_or_else(|| "–".into(), |m| words::quantity(m.corrected(), m.uncertainty()))
 }
 
-/// What came of it in a sentence or two.
+/// Summary in one or two sentences.
 pub(super) fn summary(standings: &[Standing]) -> String {
     let those = |verdict: Verdict| standings.iter().filter(move |s| s.verdict() == verdict);
     let labels = |verdict| those(verdict).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ");
-    // What is too noisy to tell may have missed its brightest paths, and with them most of its variance.
+    // An undecided view may have missed its brightest paths, and with them most of its variance.
     let mut sure: Vec<&Standing> = those(Verdict::Agrees).collect();
     sure.sort_by(|a, b| b.efficiency.total_cmp(&a.efficiency));
     let mut sentences = Vec::new();
@@ -78,13 +78,11 @@ pub(super) fn summary(standings: &[Standing]) -> String {
             next.name,
             next.label
         )),
-        [only] => {
-            sentences.push(format!("Of {} (view {}) alone it is sure that it agrees.", only.name, only.label))
-        }
+        [only] => sentences.push(format!("Only {} (view {}) is known to agree.", only.name, only.label)),
         [] => {}
     }
     for (verdict, text) in
-        [(Verdict::Undecided, "Not decided:"), (Verdict::Differs, "Biased, and therefore ranked last:")]
+        [(Verdict::Undecided, "Undecided:"), (Verdict::Differs, "Biased, and therefore ranked last:")]
     {
         let labels = labels(verdict);
         if !labels.is_empty() {

@@ -1,4 +1,4 @@
-//! What every view was made with.
+//! Settings of every view.
 
 use crate::compare::Standing;
 use crate::compare::report::gather::{Gathered, Shown};
@@ -7,7 +7,7 @@ use crate::scene::{Absorption, EstimatorDoc, MajorantDoc, Mode, WhenExceeded};
 use serde::Serialize;
 use serde_json::Value;
 
-/// What a view is made with.
+/// Settings of one view.
 #[derive(Serialize)]
 pub(super) struct Setting {
     label: String,
@@ -24,7 +24,7 @@ pub(super) struct Setting {
     command: Option<String>,
 }
 
-/// The settings of every view, in their order.
+/// Settings of all views, in their order.
 pub(super) fn settings(gathered: &Gathered<'_>) -> Vec<Setting> {
     gathered.views.iter().zip(&gathered.standings).map(|view| setting(gathered, view)).collect()
 }
@@ -55,7 +55,7 @@ fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) 
     }
 }
 
-/// Every other choice that is not the usual one, as scene files have it.
+/// Further settings that differ from the defaults, in the notation of scene files.
 fn choices(estimator: &EstimatorDoc) -> String {
     const SHOWN: [&str; 5] = ["id", "mode", "absorption", "max_depth", "roulette_depth"];
     let (Ok(Value::Object(chosen)), Ok(usual)) =
@@ -70,7 +70,7 @@ fn choices(estimator: &EstimatorDoc) -> String {
         other => format!("{key}: {other}"),
     });
     let words: Vec<_> = words.collect();
-    if words.is_empty() { "as usual".into() } else { words.join(", ").replace('"', "") }
+    if words.is_empty() { "defaults".into() } else { words.join(", ").replace('"', "") }
 }
 
 fn majorant(doc: &MajorantDoc) -> String {

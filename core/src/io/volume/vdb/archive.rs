@@ -1,55 +1,57 @@
-//! The grids of an OpenVDB file, found but not yet walked.
+//! List of the grids of an OpenVDB file, before their trees are walked.
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
-use super::super::limits::Limits;
 use super::compression::Compression;
 use super::descriptor::{self, GridDescriptor};
 use super::header::{Header, VERSION_NODE_MASK_COMPRESSION};
+use super::map;
 use super::metadata::Metadata;
-use super::{map, preflight};
 
-/// Most grids of a file. Real ones have below 100; instances make each cost a walk.
+/// Maximum number of grids of a file. Real files have fewer than 100; with instances each grid costs a walk.
 const MAX_GRIDS: u32 = 1024;
 
-/// An OpenVDB file whose head and list of grids have been read.
+/// An OpenVDB file with its header and list of grids.
 #[derive(Debug)]
 pub(super) struct Archive<'a> {
     pub(super) bytes: &'a [u8],
     pub(super) header: Header,
     /// In file order.
     pub(super) grids: Vec<GridDescriptor>,
-    /// Grids that the file counts but that cannot be found; see [`Archive::open`].
+    /// Number of grids stated by the file that cannot be found; see [`Archive::open`].
     pub(super) unreachable: u32,
 }
 
-/// What stands in front of a grid's tree.
+/// Data in front of the tree of a grid.
 #[derive(Debug)]
 pub(super) struct GridHead<'a> {
     pub(super) compression: Compression,
     pub(super) metadata: Metadata<'a>,
     pub(super) map_type: String,
-    /// World from index, and a cursor at the tree; or why this map cannot be read.
+    /// World from index, and a cursor at the tree; or the reason why this map cannot be read.
     pub(super) map: Result<(glam::DAffine3, Cursor<'a>), Fault>,
 }
 
+/// Finds the offset behind a grid, by its index in the archive read so far.
+pub(super) type EndOfGrid<'f> = &'f dyn Fn(&Archive<'_>, usize) -> Result<u64, Fault>;
+
 impl<'a> Archive<'a> {
-    /// Reads the head of the file and the list of its grids.
+    /// Reads the header of the file and the list of its grids.
     ///
-    /// In a file without offsets the end of a grid is only known after a walk through its tree;
+    /// In a file without offsets `end_of_grid` finds the end of a grid by a walk through its tree;
     /// behind a grid that cannot be walked, no other can be found.
-    pub(super) fn open(bytes: &'a [u8], limits: &Limits) -> Result<Self, Fault> {
+    pub(super) fn open(bytes: &'a [u8], end_of_grid: EndOfGrid<'_>) -> Result<Self, Fault> {
         let mut cursor = Cursor::new(bytes);
         let header = Header::read(&mut cursor)?;
-        Self::find_grids(bytes, cursor, header.clone(), limits).map_err(|fault| header.blamed(fault))
+        Self::find_grids(bytes, cursor, header.clone(), end_of_grid).map_err(|fault| header.blamed(fault))
     }
 
-    /// Reads the list of grids that follows the head.
+    /// Reads the list of grids that follows the header.
     fn find_grids(
         bytes: &'a [u8],
         mut cursor: Cursor<'a>,
         header: Header,
-        limits: &Limits,
+        end_of_grid: EndOfGrid<'_>,
     ) -> Result<Self, Fault> {
         let count = header.grid_count;
         if count > MAX_GRIDS {
@@ -70,9 +72,9 @@ impl<'a> Archive<'a> {
             }
             let end = match end {
                 Some(end) => end,
-                None => match preflight::end_of_grid(&archive, archive.grids.len() - 1, limits) {
+                None => match end_of_grid(&archive, archive.grids.len() - 1) {
                     Ok(end) => end,
-                    // Its own error appears when that grid is asked for.
+                    // The error is reported when this grid is requested.
                     Err(_) => {
                         archive.unreachable = count - index - 1;
                         break;
@@ -90,7 +92,7 @@ impl<'a> Archive<'a> {
         self.grids.iter().map(|grid| grid.display_name.clone()).collect()
     }
 
-    /// Reads what stands in front of a grid's tree.
+    /// Reads the data in front of the tree of a grid.
     pub(super) fn grid_head(&self, grid: &GridDescriptor) -> Result<GridHead<'a>, Fault> {
         let file_end = self.bytes.len() as u64;
         let extent = grid.extent;
@@ -108,7 +110,7 @@ impl<'a> Archive<'a> {
         Ok(GridHead { compression, metadata, map_type, map })
     }
 
-    /// The grid whose tree a grid uses: itself, or the parent of an instance.
+    /// Grid that owns the tree of a grid: itself, or the parent of an instance.
     pub(super) fn tree_owner<'g>(&'g self, grid: &'g GridDescriptor) -> Result<&'g GridDescriptor, Fault> {
         let parent = &grid.instance_parent;
         if parent.is_empty() {

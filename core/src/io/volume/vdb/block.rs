@@ -1,9 +1,9 @@
-//! One value block: the values of one tree node, checked and copied into the transcript.
+//! Value block of a tree node, checked and copied into the transcript.
 //!
-//! In the file (OpenVDB `io/Compression.h`, `readCompressedValues`), from version 222 on:
-//! a tag, up to two inactive values, a mask that selects between them, and a chunk with all
-//! values or only the active ones. Inactive voxels count as background here, so the transcript
-//! drops the inactive values and the mask.
+//! Layout in the file (OpenVDB `io/Compression.h`, `readCompressedValues`) from version 222 on: a tag, up to
+//! two inactive values, a mask that selects between them, and a chunk with all values or only the active
+//! ones. Inactive voxels are treated as background here, so that the transcript omits the inactive values and
+//! the mask.
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
@@ -20,7 +20,7 @@ const MASK_AND_ONE_INACTIVE_VALUE: u8 = 4;
 const MASK_AND_TWO_INACTIVE_VALUES: u8 = 5;
 const ALL_VALUES: u8 = 6;
 
-/// How all blocks of one tree are written.
+/// Format of all value blocks of a tree.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BlockFormat {
     /// Version of the file.
@@ -36,7 +36,7 @@ impl BlockFormat {
         self.version >= VERSION_NODE_MASK_COMPRESSION
     }
 
-    /// Checks a block of `len` values of which `active` ones are set, and copies it to `out`.
+    /// Checks a block of `len` values with the mask `active`, and copies it to `out`.
     pub(super) fn copy(
         &self,
         cursor: &mut Cursor,
@@ -53,8 +53,8 @@ impl BlockFormat {
             out.push(if tag == ALL_VALUES { ALL_VALUES } else { NO_MASK_OR_INACTIVE_VALUES });
         }
         if count == 0 && self.value_type.is_narrowed(self.stored) {
-            // OpenVDB writes nothing for no narrowed values, where it writes a size of 0 for no
-            // others. `vdb-rs` expects the size in both cases, so the transcript has it.
+            // For narrowed values OpenVDB writes nothing if there are none, but a size of 0 for other values.
+            // `vdb-rs` expects the size in both cases, so that the transcript contains it.
             if self.compression.codec != Codec::None {
                 out.extend(0_i64.to_le_bytes());
             }
@@ -69,7 +69,7 @@ impl BlockFormat {
         Ok(())
     }
 
-    /// Reads the tag, and passes over the inactive values and the mask that it announces.
+    /// Reads the tag, and skips the inactive values and the mask that it announces.
     fn skip_inactive(&self, cursor: &mut Cursor, len: usize) -> Result<u8, Fault> {
         let at = cursor.position();
         let tag = cursor.u8()?;

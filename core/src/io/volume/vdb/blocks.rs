@@ -1,29 +1,29 @@
-//! From leaves and tiles to blocks over the active bounding box, without an array of the box.
+//! Conversion of leaves and tiles to blocks over the active bounding box, without an array of the box.
 
 use rayon::prelude::*;
 
 use super::super::blocks::{BLOCK, BlockGrid, ConstantTile};
 use super::super::error::Fault;
-use super::super::limits::Limits;
+use super::super::read_limits::ReadLimits;
 use super::dense::active_box;
 use super::mask;
 use super::sparse::{Leaf, SparseGrid};
 
-/// What a block brought to light.
+/// Statistics of one block.
 #[derive(Default)]
 struct CollisionRecord {
     repaired: u64,
     negatives: u64,
-    /// The first voxel below zero in the order of an array.
+    /// First negative voxel in array order.
     first: Option<([i32; 3], f32)>,
     empty: bool,
 }
 
-/// The blocks of `sparse`, whose background is zero. Name, map and class are left for the caller.
+/// Converts `sparse`, whose background is zero, to blocks. Name, map and class are set by the caller.
 ///
 /// # Errors
-/// No voxel is active, or the box exceeds the limit (long before memory is asked for).
-pub(super) fn blocks(sparse: SparseGrid, limits: &Limits) -> Result<BlockGrid, Fault> {
+/// When no voxel is active, or the box exceeds the limit (before memory is allocated).
+pub(super) fn blocks(sparse: SparseGrid, limits: &ReadLimits) -> Result<BlockGrid, Fault> {
     let bbox = active_box(&sparse)?;
     limits.blocks(bbox.size())?;
     let SparseGrid { channels, leaves, mut leaf_values, tiles, .. } = sparse;
@@ -33,7 +33,7 @@ pub(super) fn blocks(sparse: SparseGrid, limits: &Limits) -> Result<BlockGrid, F
         .map(|(values, leaf)| rearrange(values, leaf, channels))
         .collect();
 
-    // Blocks that hold nothing go; the others move up.
+    // Empty blocks are removed and the others moved up.
     let mut origins = Vec::with_capacity(leaves.len());
     for (number, leaf) in leaves.iter().enumerate().filter(|(number, _)| !found[*number].empty) {
         let block = BLOCK * channels;
@@ -79,7 +79,7 @@ fn array_order([x, y, z]: [i32; 3]) -> [i32; 3] {
     [z, y, x]
 }
 
-/// From z fastest to x fastest; what is inactive or not finite becomes zero.
+/// Reorders voxels from z fastest to x fastest; inactive and non-finite voxels become zero.
 fn rearrange(values: &mut [f32], leaf: &Leaf, channels: usize) -> CollisionRecord {
     let mut found = CollisionRecord { empty: true, ..CollisionRecord::default() };
     let mut block = vec![0.0; values.len()];

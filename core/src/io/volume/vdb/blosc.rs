@@ -1,11 +1,11 @@
-//! Check of a Blosc 1 chunk before the C library behind `vdb-rs` sees it.
+//! Validation of a Blosc 1 chunk before it reaches the C library behind `vdb-rs`.
 //!
-//! `vdb-rs` takes the unpacked size from the chunk's own header and never compares the packed
-//! size with the bytes it has: a wrong header makes the C code read and write out of bounds. So
-//! everything that the decoder derives an address from is verified here: sizes, block table, and
-//! the sizes of the splits of each block. Layout after c-blosc's `README_CHUNK_FORMAT.rst`.
+//! `vdb-rs` takes the unpacked size from the header of the chunk and does not compare the packed size with
+//! the number of bytes that it has: a wrong header makes the C code read and write out of bounds. All values
+//! from which the decoder derives an address are therefore verified here: sizes, block table, and the sizes
+//! of the splits of each block. Layout after c-blosc's `README_CHUNK_FORMAT.rst`.
 //!
-//! OpenVDB has only ever written LZ4 with byte shuffle, so nothing else is let through.
+//! OpenVDB has only ever written LZ4 with byte shuffle; all other formats are refused.
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
@@ -20,9 +20,9 @@ const FLAG_UNSPLIT: u8 = 0x10;
 const CODEC_SHIFT: u8 = 5;
 const CODEC_LZ4: u8 = 1;
 
-/// A block of wider values is never split by byte plane (`MAX_SPLITS` of c-blosc).
+/// Maximum value size in bytes of a block that is split by byte plane (`MAX_SPLITS` of c-blosc).
 const MAX_SPLITS: usize = 16;
-/// Nor is one with fewer values (`MIN_BUFFERSIZE` of c-blosc).
+/// Minimum number of values of a block that is split (`MIN_BUFFERSIZE` of c-blosc).
 const MIN_SPLIT_VALUES: usize = 128;
 
 /// Checks that `chunk` unpacks to exactly `unpacked` bytes without leaving either buffer.
@@ -69,7 +69,7 @@ pub(super) fn check(chunk: &[u8], unpacked: usize) -> Result<(), Fault> {
     check_blocks(chunk, cursor, nbytes, block_bytes, flags & FLAG_UNSPLIT == 0, type_bytes)
 }
 
-/// Follows the table of block starts, and in each block the chain of split sizes.
+/// Validates the table of block starts, and the chain of split sizes in each block.
 fn check_blocks(
     chunk: &[u8],
     mut table: Cursor,
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn sound_chunk_passes() {
+    fn valid_chunk_passes() {
         assert!(check(&chunk(2048, 100), 2048).is_ok());
     }
 
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn every_lie_in_the_header_is_caught() {
+    fn every_wrong_header_field_is_detected() {
         let sound = chunk(2048, 100);
         assert!(check(&sound, 1024).is_err(), "unpacked size");
         assert!(check(&sound[..80], 2048).is_err(), "truncated");

@@ -1,8 +1,8 @@
-//! The grid of an OpenVDB file that is read.
+//! Selection of a grid in an OpenVDB file.
 
 use super::super::choice::{GridChoice, GridRole, Suitability, suitability};
 use super::super::error::VolumeError;
-use super::super::limits::Limits;
+use super::super::read_limits::ReadLimits;
 use super::LEVEL_SET;
 use super::archive::Archive;
 use super::preflight::{self, Preflight};
@@ -12,16 +12,16 @@ use super::value_type::ValueType;
 pub(super) struct Chosen {
     pub(super) index: usize,
     pub(super) preflight: Preflight,
-    /// What is to be known about the file and the choice.
+    /// Notices about the file and the selection.
     pub(super) notices: Vec<String>,
 }
 
-/// Finds the grid that is asked for, and checks it.
+/// Finds the requested grid and checks it.
 pub(super) fn choose(
     archive: &Archive,
     label: &str,
     choice: GridChoice<'_>,
-    limits: &Limits,
+    limits: &ReadLimits,
 ) -> Result<Chosen, VolumeError> {
     let no_such_grid =
         |what: String| VolumeError::NoSuchGrid { file: label.to_owned(), what, available: archive.names() };
@@ -35,16 +35,16 @@ pub(super) fn choose(
         None => most_suitable(archive, role).ok_or_else(|| {
             let (quantity, key) = (role.name(), role.key());
             no_such_grid(match archive.grids.len() {
-                0 => "it holds no grid".to_owned(),
+                0 => "it contains no grid".to_owned(),
                 _ => format!(
-                    "none of its grids is a {quantity} by its name, type and class: name the one that is meant with \
+                    "none of its grids is a {quantity} by its name, type and class: select one with \
                      the key `grid` beside `file` ({key} = \"NAME\")"
                 ),
             })
         })?,
     };
     let grid = &archive.grids[index].display_name;
-    // A grid that cannot be read is not replaced by a less suitable one: that would be another picture.
+    // A grid that cannot be read is not replaced by a less suitable one, which would show a different image.
     let preflight = preflight::check(archive, index, limits)
         .map_err(|fault| archive.header.blamed(fault).in_file(label, Some(grid)))?;
     let mut notices = Vec::from_iter(archive.header.notice().map(|notice| format!("{label}: {notice}.")));
@@ -54,13 +54,14 @@ pub(super) fn choose(
     Ok(Chosen { index, preflight, notices })
 }
 
-/// Number of the grid that is read in a role when none is named.
+/// Index of the grid that is read in a role without a name.
 pub(super) fn most_suitable(archive: &Archive, role: GridRole) -> Option<usize> {
     let rank = |index: usize| {
         let grid = &archive.grids[index];
         let suitability = suitability(&grid.display_name, role)?;
         if suitability == Suitability::OwnName {
-            // Whatever its type: a vector grid of densities is one, and what cannot be read is said so.
+            // Any type is accepted: a vector grid of densities is valid, and an unsupported type gives an
+            // error.
             return Some((suitability, false));
         }
         if !ValueType::of_tree(&grid.tree_type).is_ok_and(ValueType::is_real_scalar) {
@@ -74,7 +75,8 @@ pub(super) fn most_suitable(archive: &Archive, role: GridRole) -> Option<usize> 
     ranked.min().map(|(_, index)| index)
 }
 
-/// Which grid was chosen from which, unless it has the role's own name and no other could be meant.
+/// Notice about the selected grid and its alternatives; `None` if it has the name of the role and no other
+/// grid has a related name.
 pub(super) fn notice(archive: &Archive, index: usize, role: GridRole) -> Option<String> {
     let quantity = role.name();
     let named_alike = |other: usize| {
@@ -88,10 +90,10 @@ pub(super) fn notice(archive: &Archive, index: usize, role: GridRole) -> Option<
     let others: Vec<_> = (0..archive.grids.len()).filter(|other| *other != index).map(quoted).collect();
     let among = match others.is_empty() {
         true => String::new(),
-        false => format!(" (the file also holds {})", others.join(", ")),
+        false => format!(" (the file also contains {})", others.join(", ")),
     };
     Some(format!(
-        "its grid {} is read as the {quantity}{among}; {} names another.",
+        "its grid {} is read as the {quantity}{among}; {} selects another.",
         quoted(index),
         role.key()
     ))

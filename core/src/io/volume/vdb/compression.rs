@@ -1,4 +1,4 @@
-//! How a grid's value blocks are packed, and the check of one packed chunk.
+//! Compression of value blocks, and validation of one compressed chunk.
 //!
 //! Layout after OpenVDB's `io/Compression.h` and `io/Compression.cc`.
 
@@ -13,13 +13,13 @@ const BLOSC: u32 = 0x4;
 /// Compression flags of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Compression {
-    /// How the chunks are packed.
+    /// Codec of the chunks.
     pub(super) codec: Codec,
-    /// Whether inactive values may be left out of a block.
+    /// Whether inactive values may be omitted from a block.
     pub(super) active_mask: bool,
 }
 
-/// How the bytes of a chunk are packed.
+/// Codec of the bytes of a chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Codec {
     None,
@@ -28,12 +28,12 @@ pub(super) enum Codec {
 }
 
 impl Compression {
-    /// From the flags in the file; `at` is their offset, in bytes.
+    /// Parses the flags in the file; `at` is their offset in bytes.
     pub(super) fn from_flags(flags: u32, at: u64) -> Result<Self, Fault> {
         if flags & !(ZIP | ACTIVE_MASK | BLOSC) != 0 {
             return Err(Fault::invalid(at, format!("unknown compression flags {flags:#x}")));
         }
-        // A file that sets both is read as blosc by OpenVDB.
+        // OpenVDB reads a file with both flags as Blosc.
         let codec = match (flags & BLOSC != 0, flags & ZIP != 0) {
             (true, _) => Codec::Blosc,
             (false, true) => Codec::Zip,
@@ -42,7 +42,7 @@ impl Compression {
         Ok(Self { codec, active_mask: flags & ACTIVE_MASK != 0 })
     }
 
-    /// The flags again, for the transcript.
+    /// Flags for the transcript.
     pub(super) fn flags(self) -> u32 {
         let mask = if self.active_mask { ACTIVE_MASK } else { 0 };
         mask | match self.codec {
@@ -53,9 +53,8 @@ impl Compression {
     }
 }
 
-/// Checks one chunk that unpacks to `unpacked` bytes, and returns its packed bytes and the size
-/// field in front of them (0 bytes and no size field without a codec). A negative size says that
-/// the bytes are not packed after all.
+/// Validates one chunk that unpacks to `unpacked` bytes. Returns its packed bytes and the size field in front
+/// of them (without a codec there is no size field). A negative size marks bytes that are not packed.
 pub(super) fn chunk<'a>(
     cursor: &mut Cursor<'a>,
     codec: Codec,
@@ -77,12 +76,12 @@ pub(super) fn chunk<'a>(
     }
     let packed = cursor.take(usize::try_from(size).unwrap_or(usize::MAX))?;
     if unpacked == 0 {
-        // Some writers pack nothing into a header of nothing; no value depends on it.
+        // Some writers compress an empty block to a bare header; no value depends on it.
         return Ok((Some(0), &[]));
     }
     if codec == Codec::Blosc {
         blosc::check(packed, unpacked).map_err(|fault| fault.at(at))?;
     }
-    // A zip stream needs no check of its own: it is unpacked by safe code into `unpacked` bytes.
+    // A zip stream needs no validation: it is unpacked by safe code into `unpacked` bytes.
     Ok((Some(size), packed))
 }

@@ -1,20 +1,20 @@
-//! From leaves and tiles to a dense grid over the active bounding box.
+//! Conversion of leaves and tiles to a dense grid over the active bounding box.
 
 use rayon::prelude::*;
 
 use super::super::error::Fault;
 use super::super::grid::{SampleConvention, VoxelGrid};
-use super::super::limits::{Limits, allocate};
+use super::super::read_limits::{ReadLimits, allocate};
 use super::mask;
+use super::sparse::LEAF_EDGE;
 use super::sparse::{IndexBox, Leaf, SparseGrid, Tile};
-use super::tree::LEAF_EDGE;
 
-/// The active bounding box of `sparse`, filled: active voxels with their values, all others with
-/// the background. Name, map and class are left for the caller.
+/// Converts `sparse` to a dense grid over its active bounding box: active voxels with their values, all
+/// others with the background. Name, map and class are set by the caller.
 ///
 /// # Errors
-/// No voxel is active, or the box exceeds the limit (long before memory is asked for).
-pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid, Fault> {
+/// When no voxel is active, or the box exceeds the limit (before memory is allocated).
+pub(super) fn densify(sparse: &SparseGrid, limits: &ReadLimits) -> Result<VoxelGrid, Fault> {
     let bbox = active_box(sparse)?;
     let channels = sparse.channels;
     let len = limits.dense_values(bbox.size(), channels)?;
@@ -54,10 +54,10 @@ pub(super) fn densify(sparse: &SparseGrid, limits: &Limits) -> Result<VoxelGrid,
     Ok(grid)
 }
 
-/// The box around active voxels.
+/// Bounding box of the active voxels.
 ///
 /// # Errors
-/// There are none.
+/// When no voxel is active.
 pub(super) fn active_box(sparse: &SparseGrid) -> Result<IndexBox, Fault> {
     sparse.active_bbox().ok_or_else(|| {
         Fault::invalid(None, "no voxel is active")
@@ -65,21 +65,21 @@ pub(super) fn active_box(sparse: &SparseGrid) -> Result<IndexBox, Fault> {
     })
 }
 
-/// Up to eight z planes of the dense grid, aligned to the leaves: slabs share no leaf, and can be
-/// filled side by side.
+/// Up to eight z planes of the dense grid, aligned to the leaves: slabs share no leaf and can be filled in
+/// parallel.
 struct Slab<'a> {
     values: &'a mut [f32],
     bbox: IndexBox,
 }
 
-/// What a slab is filled with.
+/// Tiles and leaves of a slab.
 #[derive(Default)]
 struct SlabContents<'a> {
     tiles: Vec<&'a Tile>,
     leaves: Vec<(&'a Leaf, &'a [f32])>,
 }
 
-/// Cuts the dense values at every multiple of eight in z.
+/// Splits the dense values at every multiple of eight in z.
 fn split_slabs<'a>(values: &'a mut [f32], bbox: &IndexBox, plane: usize) -> Vec<Slab<'a>> {
     let mut slabs = Vec::new();
     let mut rest = values;
@@ -95,7 +95,7 @@ fn split_slabs<'a>(values: &'a mut [f32], bbox: &IndexBox, plane: usize) -> Vec<
     slabs
 }
 
-/// Lists for each slab the tiles and leaves that reach into it.
+/// Collects the tiles and leaves that overlap each slab.
 fn sort_into_slabs<'a>(sparse: &'a SparseGrid, bbox: &IndexBox, slab_count: usize) -> Vec<SlabContents<'a>> {
     let mut contents: Vec<SlabContents> = Vec::new();
     contents.resize_with(slab_count, SlabContents::default);
@@ -109,7 +109,7 @@ fn sort_into_slabs<'a>(sparse: &'a SparseGrid, bbox: &IndexBox, slab_count: usiz
             slab.tiles.push(tile);
         }
     }
-    // A leaf without active voxels may lie outside the box, and has nothing to fill in.
+    // A leaf without active voxels may be outside the box and contributes nothing.
     for (leaf, values) in sparse.leaves().filter(|(leaf, _)| leaf.active != [0; 8]) {
         if let Some(slab) = contents.get_mut(slab_of(leaf.origin[2])) {
             slab.leaves.push((leaf, values));
@@ -119,7 +119,7 @@ fn sort_into_slabs<'a>(sparse: &'a SparseGrid, bbox: &IndexBox, slab_count: usiz
 }
 
 impl Slab<'_> {
-    /// Position of a voxel of this slab, in voxels.
+    /// Linear index of a voxel within this slab.
     fn voxel(&self, index: [i32; 3]) -> usize {
         let [x, y, z] = [0, 1, 2].map(|axis| index[axis].abs_diff(self.bbox.min[axis]) as usize);
         let [nx, ny, _] = self.bbox.size().map(|n| n as usize);

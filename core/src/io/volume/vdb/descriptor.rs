@@ -1,4 +1,4 @@
-//! The list of grids in a file: names, types, and where each one's bytes are.
+//! Grid descriptors of a file: names, types, and byte ranges.
 //!
 //! Layout after OpenVDB's `io/GridDescriptor.cc`.
 
@@ -8,40 +8,40 @@ use super::super::cursor::Cursor;
 use super::super::error::Fault;
 use super::header::Header;
 
-/// Between a grid's name and the number that makes it unique in its file.
+/// Separator between the name of a grid and the number that makes it unique in its file.
 const NAME_SEPARATOR: char = '\x1e';
-/// Behind the type of a grid whose real numbers are saved as half floats.
+/// Suffix of the type of a grid whose real numbers are saved as half floats.
 const HALF_SUFFIX: &str = "_HalfFloat";
 
-/// One entry of the list.
+/// Descriptor of one grid.
 #[derive(Debug, Clone)]
 pub(super) struct GridDescriptor {
-    /// Name with its `\x1eN` suffix, as other grids refer to it.
+    /// Name with its `\x1eN` suffix, by which other grids refer to it.
     pub(super) unique_name: String,
-    /// Name to show and to ask for: no suffix; the second grid of a name is `name[1]`.
+    /// Display name without the suffix; the second grid of a name is `name[1]`.
     pub(super) display_name: String,
     /// Tree type without the half suffix, for example `Tree_float_5_4_3`.
     pub(super) tree_type: String,
     /// Whether the type has the half suffix.
     pub(super) half: bool,
-    /// If not empty, the unique name of the grid whose tree this one shares.
+    /// Unique name of the grid whose tree this one shares; empty if it has its own.
     pub(super) instance_parent: String,
     pub(super) extent: Extent,
 }
 
-/// Where a grid's bytes are, as offsets from the start of the file.
+/// Byte range of a grid, as offsets from the start of the file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
-    /// Compression flags, metadata, map and tree topology.
+    /// Start of compression flags, metadata, map and tree topology.
     pub(super) grid: u64,
-    /// Leaf values; in a file without offsets they follow the topology.
+    /// Start of the leaf values; in a file without offsets they follow the topology.
     pub(super) blocks: Option<u64>,
     /// End of the leaf values; unknown in a file without offsets.
     pub(super) end: Option<u64>,
 }
 
 impl GridDescriptor {
-    /// Reads one entry; the cursor is left at the grid's own bytes.
+    /// Reads one descriptor; leaves the cursor at the bytes of the grid.
     pub(super) fn read(cursor: &mut Cursor, header: &Header) -> Result<Self, Fault> {
         let unique_name = cursor.text()?;
         let full_type = cursor.text()?;
@@ -52,7 +52,7 @@ impl GridDescriptor {
         let instance_parent = cursor.text()?;
         let at = cursor.position();
         let (grid, blocks, end) = (cursor.u64()?, cursor.u64()?, cursor.u64()?);
-        // An instance has no leaf values, and an offset of 0 for them.
+        // An instance has no leaf values and states an offset of 0 for them.
         let blocks = if instance_parent.is_empty() { blocks } else { end };
         let here = cursor.position();
         let extent = if header.has_offsets {
@@ -61,7 +61,7 @@ impl GridDescriptor {
                 return Err(Fault::invalid(
                     at,
                     format!(
-                        "the grid \"{unique_name}\" is said to occupy bytes {grid}, {blocks} to \
+                        "the grid \"{unique_name}\" is declared to occupy bytes {grid}, {blocks} to \
                          {end} of a file of {file_end} bytes"
                     ),
                 ));

@@ -1,4 +1,4 @@
-//! The head of an OpenVDB file: magic number, versions, flags, file metadata.
+//! Header of an OpenVDB file: magic number, versions, flags, file metadata.
 //!
 //! Layout after OpenVDB's `io/Archive.cc` (`Archive::readHeader`), little-endian.
 
@@ -9,25 +9,25 @@ use super::metadata::Metadata;
 /// First eight bytes of every OpenVDB file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x20BDV\0\0\0\0";
 
-/// From this version on each block may be switched between zip and none; oldest that we read.
+/// Oldest version that is read; from this version on each block may be switched between zip and none.
 pub(super) const VERSION_SELECTIVE_COMPRESSION: u32 = 220;
-/// From this version on compression is stored per grid and inactive values may be left out.
+/// From this version on compression is stored per grid and inactive values may be omitted.
 pub(super) const VERSION_NODE_MASK_COMPRESSION: u32 = 222;
-/// The newest version that `vdb-rs` knows (OpenVDB 5 to 12).
+/// Newest version that `vdb-rs` supports (OpenVDB 5 to 12).
 pub(super) const VERSION_MULTIPASS_IO: u32 = 224;
-/// The newest version there is (OpenVDB 13): 224 with grids of native half floats.
+/// Newest existing version (OpenVDB 13): 224 with grids of native half floats.
 pub(super) const VERSION_NEWEST: u32 = 225;
 
 const UUID_BYTES: usize = 36;
 
-/// What the head of the file says about the whole of it.
+/// Contents of the file header.
 #[derive(Debug, Clone)]
 pub(super) struct Header {
-    /// Version of the layout; a file of a newer version is read as [`VERSION_NEWEST`].
+    /// Version of the layout; a newer version is read as [`VERSION_NEWEST`].
     pub(super) version: u32,
-    /// The version that the file states, where it is newer than any that is known.
+    /// Version stated by the file, if it is newer than [`VERSION_NEWEST`].
     pub(super) newer: Option<u32>,
-    /// Whether grids can be found by offset; otherwise they follow one another unmarked.
+    /// Whether grids have offsets; otherwise they follow one another without marks.
     pub(super) has_offsets: bool,
     /// Compression flags of all grids; from version 222 on each grid has its own.
     pub(super) compression: u32,
@@ -35,7 +35,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Reads the head; the cursor is left at the first grid descriptor.
+    /// Reads the header; leaves the cursor at the first grid descriptor.
     pub(super) fn read(cursor: &mut Cursor) -> Result<Self, Fault> {
         if cursor.take(MAGIC.len()).ok() != Some(MAGIC.as_slice()) {
             return Err(Fault::invalid(0, "this is not an OpenVDB file: its magic number is missing"));
@@ -63,20 +63,21 @@ impl Header {
         Ok(Self { version, newer, has_offsets, compression, grid_count })
     }
 
-    /// What is to be known about a file of a version that did not exist when this reader was written.
+    /// Notice for a file of a newer version than this reader supports.
     pub(super) fn notice(&self) -> Option<String> {
         let newer = self.newer?;
         Some(format!(
-            "it has OpenVDB's file version {newer}, and is read as version {VERSION_NEWEST}, the newest one known"
+            "it has OpenVDB file version {newer}, and is read as version {VERSION_NEWEST}, the newest known version"
         ))
     }
 
-    /// The same fault, with the version as its likely cause if that is newer than any that is known.
+    /// Adds the file version as the likely cause to a fault, if the version is newer than the newest known
+    /// one.
     pub(super) fn blamed(&self, fault: Fault) -> Fault {
         match self.newer {
             None => fault,
             Some(newer) => fault.with_cure(format!(
-                "The file has OpenVDB's file version {newer}, but the newest one known is {VERSION_NEWEST}: save it \
+                "The file has OpenVDB file version {newer}, but the newest known version is {VERSION_NEWEST}: save it \
                  again with OpenVDB 13"
             )),
         }

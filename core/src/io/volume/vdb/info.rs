@@ -1,4 +1,4 @@
-//! What is in an OpenVDB file, grid by grid, without a dense grid.
+//! Description of the grids of an OpenVDB file, without a dense grid.
 
 use std::path::Path;
 
@@ -8,16 +8,16 @@ use serde::Serialize;
 use super::super::choice::GridRole;
 use super::super::error::{Fault, VolumeError};
 use super::super::file;
-use super::super::limits::Limits;
+use super::super::read_limits::ReadLimits;
 use super::archive::Archive;
 use super::value_type::ValueType;
 use super::{choice, preflight, read};
 
-/// Description of one grid. Fields that a refused grid does not have are left out of its JSON.
+/// Description of one grid. Fields without a value are omitted from the JSON.
 #[derive(Debug, Clone, Default, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub struct GridInfo {
-    /// Name to ask for; the second grid of a name is `name[1]`.
+    /// Name of the grid; the second grid of a name is `name[1]`.
     pub name: String,
     /// Tree type, for example `Tree_float_5_4_3`.
     #[serde(rename = "type")]
@@ -31,13 +31,13 @@ pub struct GridInfo {
     /// Active voxels; tiles count by their volume.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub active_voxels: Option<u64>,
-    /// Active voxels that are NaN or infinite; they enter none of the numbers below.
+    /// Active voxels that are NaN or infinite; excluded from the statistics below.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub non_finite: Option<u64>,
-    /// Least active value, over all channels.
+    /// Smallest active value, over all channels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min: Option<f32>,
-    /// Greatest active value, over all channels.
+    /// Largest active value, over all channels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max: Option<f32>,
     /// Mean active value, over all channels.
@@ -46,7 +46,7 @@ pub struct GridInfo {
     /// First and last active index coordinates, both inclusive.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bbox: Option<[i32; 6]>,
-    /// Value of everything inactive; one number, or three for a vector grid.
+    /// Value of inactive voxels; one number, or three for a vector grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub background: Option<Background>,
     /// Lengths of a voxel's edges, in world units.
@@ -55,7 +55,7 @@ pub struct GridInfo {
     /// Lengths of the edges of the active box, in world units.
     #[serde(skip)]
     pub world_size: Option<[f64; 3]>,
-    /// Why the grid cannot be read, if it cannot.
+    /// Reason why the grid cannot be read, if it cannot.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
@@ -64,53 +64,54 @@ pub struct GridInfo {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Background {
-    /// Of a grid with one channel.
+    /// Background of a grid with one channel.
     Scalar(f32),
-    /// Of a grid with three channels.
+    /// Background of a grid with three channels.
     Vector([f32; 3]),
 }
 
 /// Description of an OpenVDB file.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct FileInfo {
-    /// Its grids, in file order.
+    /// Grids in file order.
     pub grids: Vec<GridInfo>,
-    /// Name of the grid that is read as the density when none is named.
+    /// Name of the grid that is read as the density by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<String>,
-    /// What is to be known about the file, for example which grid is read as the density.
+    /// Notices about the file, for example which grid is read as the density.
     pub notices: Vec<String>,
 }
 
 /// Describes an OpenVDB file and every grid in it.
 ///
 /// # Errors
-/// The file as a whole cannot be read.
+/// When the file as a whole cannot be read.
 pub fn file_info(path: &Path) -> Result<FileInfo, VolumeError> {
-    let (limits, label) = (Limits::default(), path.display().to_string());
+    let (limits, label) = (ReadLimits::default(), path.display().to_string());
     describe(&file::read(path, &limits)?, &label, &limits)
 }
 
-/// Describes every grid of an OpenVDB file, in file order. A grid that cannot be read says why
-/// in [`GridInfo::error`].
+/// Describes every grid of an OpenVDB file, in file order. [`GridInfo::error`] states why a grid cannot be
+/// read.
 ///
 /// # Errors
-/// The file as a whole cannot be read.
+/// When the file as a whole cannot be read.
 pub fn info(path: &Path) -> Result<Vec<GridInfo>, VolumeError> {
-    let limits = Limits::default();
+    let limits = ReadLimits::default();
     info_bytes(&file::read(path, &limits)?, &path.display().to_string(), &limits)
 }
 
-/// [`info`] for a file in memory; `label` stands for its path in messages.
+/// [`info`] for a file in memory; `label` is its path in messages.
 ///
 /// # Errors
-/// The file as a whole cannot be read.
-pub fn info_bytes(bytes: &[u8], label: &str, limits: &Limits) -> Result<Vec<GridInfo>, VolumeError> {
+/// When the file as a whole cannot be read.
+pub fn info_bytes(bytes: &[u8], label: &str, limits: &ReadLimits) -> Result<Vec<GridInfo>, VolumeError> {
     describe(bytes, label, limits).map(|file| file.grids)
 }
 
-fn describe(bytes: &[u8], label: &str, limits: &Limits) -> Result<FileInfo, VolumeError> {
-    let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
+fn describe(bytes: &[u8], label: &str, limits: &ReadLimits) -> Result<FileInfo, VolumeError> {
+    let archive = Archive::open(bytes, &|archive, index| preflight::end_of_grid(archive, index, limits))
+        .map_err(|fault| fault.in_file(label, None))?;
     let describe_grid = |index| {
         let mut info = describe_head(&archive, index);
         if let Err(fault) = describe_values(&archive, index, limits, &mut info) {
@@ -136,7 +137,7 @@ fn describe(bytes: &[u8], label: &str, limits: &Limits) -> Result<FileInfo, Volu
     Ok(FileInfo { grids, density, notices })
 }
 
-/// What stands in front of the tree, as far as it can be read.
+/// Describes the data in front of the tree, as far as it can be read.
 fn describe_head(archive: &Archive, index: usize) -> GridInfo {
     let grid = &archive.grids[index];
     let mut info = GridInfo {
@@ -155,11 +156,11 @@ fn describe_head(archive: &Archive, index: usize) -> GridInfo {
     info
 }
 
-/// What only the values tell.
+/// Adds the statistics of the values.
 fn describe_values(
     archive: &Archive,
     index: usize,
-    limits: &Limits,
+    limits: &ReadLimits,
     info: &mut GridInfo,
 ) -> Result<(), Fault> {
     let preflight = preflight::check(archive, index, limits)?;

@@ -1,13 +1,13 @@
-//! The map of a grid: index coordinates to world coordinates.
+//! Transform of a grid from index to world coordinates.
 //!
-//! Layouts after OpenVDB's `math/Maps.h`. All linear maps become one affine transform.
+//! Layouts after OpenVDB's `math/Maps.h`. All linear maps are converted to one affine transform.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
 
-/// Reads the map of that type name; the cursor is left behind it.
+/// Reads a map of the named type; leaves the cursor behind it.
 pub(super) fn read(name: &str, cursor: &mut Cursor) -> Result<DAffine3, Fault> {
     let at = cursor.position();
     let world_from_index = match name {
@@ -30,7 +30,7 @@ pub(super) fn read(name: &str, cursor: &mut Cursor) -> Result<DAffine3, Fault> {
     if !world_from_index.is_finite() || !determinant.is_normal() {
         return Err(Fault::invalid(
             at,
-            format!("its {name} squashes or scatters the volume (determinant {determinant})"),
+            format!("its {name} is not invertible (determinant {determinant})"),
         )
         .with_cure("Set a voxel size above zero and save the grid again"));
     }
@@ -41,7 +41,7 @@ fn vec3(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     Ok(DVec3::new(cursor.f64()?, cursor.f64()?, cursor.f64()?))
 }
 
-/// Scale, followed by four vectors that can be derived from it.
+/// Reads a scale and skips the four vectors derived from it.
 fn scale(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let scale = vec3(cursor)?;
     for _voxel_size_inverse_square_and_half in 0..4 {
@@ -50,7 +50,7 @@ fn scale(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     Ok(scale)
 }
 
-/// A 4×4 matrix in rows, applied to row vectors: world = (index, 1) · M.
+/// Reads a 4×4 matrix in row order, applied to row vectors: world = (index, 1) · M.
 fn affine(cursor: &mut Cursor) -> Result<DAffine3, Fault> {
     let at = cursor.position();
     let mut rows = [DVec3::ZERO; 4];

@@ -22,7 +22,7 @@ pub(super) fn entry_offset(index: usize, log2_dim: u32, edge: i32) -> [i32; 3] {
     [index >> (2 * log2_dim), (index >> log2_dim) & low, index & low].map(|n| n as i32 * edge)
 }
 
-/// Component-wise sum. Node origins are checked so that no voxel of theirs leaves i32.
+/// Component-wise sum. Node origins are validated so that no voxel exceeds the range of i32.
 pub(super) fn add(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
     [a[0].saturating_add(b[0]), a[1].saturating_add(b[1]), a[2].saturating_add(b[2])]
 }

@@ -1,4 +1,4 @@
-//! Named, typed values that OpenVDB stores for the file and for each grid.
+//! Named, typed metadata values of the file and of each grid.
 //!
 //! Layout after `openvdb/MetaMap.cc`: a count, then name, type, length in bytes, value.
 
@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
 
-/// Metadata entries; values stay bytes until somebody asks for one.
+/// Metadata entries; values are decoded on access.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Metadata<'a> {
     entries: BTreeMap<String, (String, &'a [u8])>,
@@ -17,7 +17,7 @@ impl<'a> Metadata<'a> {
     pub(super) fn read(cursor: &mut Cursor<'a>) -> Result<Self, Fault> {
         let count = cursor.u32()?;
         let mut entries = BTreeMap::new();
-        // No memory is set aside for `count`: a wrong one runs into the end of the file.
+        // No memory is reserved for `count`: a wrong count reaches the end of the file.
         for _ in 0..count {
             let (name, kind) = (cursor.text()?, cursor.text()?);
             let len = cursor.u32()? as usize;
@@ -26,7 +26,7 @@ impl<'a> Metadata<'a> {
         Ok(Self { entries })
     }
 
-    /// The bytes of an entry of that type.
+    /// Bytes of an entry with this name and type.
     fn get(&self, name: &str, kind: &str) -> Option<Cursor<'a>> {
         let (actual, bytes) = self.entries.get(name)?;
         (actual == kind).then(|| Cursor::new(bytes))

@@ -1,7 +1,7 @@
-//! OpenVDB files, through the crate `vdb-rs` behind a parser of our own.
+//! Reader of OpenVDB files, based on the crate `vdb-rs` with a validating parser in front.
 //!
-//! `vdb-rs` 0.6.0 unpacks value blocks exactly, but panics on, misreads or drops much of what
-//! real files contain, and is memory-unsafe on damaged Blosc chunks. So the work is split:
+//! `vdb-rs` 0.6.0 unpacks value blocks exactly, but panics on, misreads or drops many features of real files,
+//! and is memory-unsafe on damaged Blosc chunks. The work is therefore split:
 //!
 //! ```text
 //! header → archive → preflight ─ walk of the tree ─→ transcript → vdb-rs → sparse ─→ blocks, BlockGrid
@@ -9,16 +9,17 @@
 //!                                 chunks (blosc)      grid
 //! ```
 //!
-//! * [`header`], [`metadata`], [`descriptor`], [`archive`]: which grids there are, and where;
-//! * [`value_type`], [`compression`], [`blosc`], [`block`], [`map`], [`mask`]: the parts of a grid;
-//! * [`tree`], [`preflight`]: the check of every size against the file's length;
-//! * [`transcript`]: the file of our own that `vdb-rs` gets to see;
-//! * [`choice`]: which grid is meant when none is named;
-//! * [`read`], [`sparse`], [`blocks`], [`dense`], [`info`](mod@info): what comes back, and its uses.
+//! * [`header`], [`metadata`], [`descriptor`], [`archive`]: list of grids and their byte ranges;
+//! * [`value_type`], [`compression`], [`blosc`], [`block`], [`map`], [`mask`]: components of a grid;
+//! * [`tree`], [`preflight`]: validation of every size against the length of the file;
+//! * [`transcript`]: the rewritten file that is passed to `vdb-rs`;
+//! * [`choice`]: selection of a grid without a name;
+//! * [`read`], [`sparse`], [`blocks`], [`dense`], [`info`](mod@info): the unpacked tree and its conversions.
 //!
-//! Read: half, float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
-//! versions 220 to 225 (newer ones are tried, with a notice) with every compression, half floats, linear maps, instances, tiles, files
-//! without offsets. Refused by name: bool, mask and point grids, other trees, frustum maps.
+//! Supported: half, float, double, int32, int64, vec3s and vec3d grids with the standard 5-4-3 tree; file
+//! versions 220 to 225 (newer ones are tried, with a notice) with every compression, half floats, linear
+//! maps, instances, tiles, files without offsets. Refused with a message: bool, mask and point grids, other
+//! trees, frustum maps.
 
 mod archive;
 mod block;
@@ -50,7 +51,7 @@ use super::choice::GridChoice;
 use super::error::{Fault, VolumeError};
 use super::file;
 use super::grid::VoxelGrid;
-use super::limits::Limits;
+use super::read_limits::ReadLimits;
 use archive::Archive;
 use choice::Chosen;
 use glam::DAffine3;
@@ -58,19 +59,18 @@ use sparse::SparseGrid;
 
 /// Reads one grid of an OpenVDB file into a dense grid over its active bounding box.
 ///
-/// Without a name: the grid that is named most like a density, never a temperature, velocity or level set.
-/// Values are converted to `f32`; inactive voxels hold the background; NaN and infinite voxels
-/// are set to 0 and counted. Negative values pass: see
-/// [`validate_density`](super::validate_density).
+/// Without a name, the grid whose name resembles a density most is read, never a temperature, velocity or
+/// level set. Values are converted to `f32`; inactive voxels get the background; NaN and infinite voxels are
+/// set to 0 and counted. Negative values are accepted: see [`validate_density`](super::validate_density).
 ///
 /// # Errors
-/// The file is missing, damaged or too large, the grid is not of a supported kind, or there is no
-/// grid of that name.
-pub fn read_vdb(path: &Path, grid: Option<&str>, limits: &Limits) -> Result<VoxelGrid, VolumeError> {
+/// When the file is missing, damaged or too large, the grid is of an unsupported kind, or there is no grid of
+/// this name.
+pub fn read_vdb(path: &Path, grid: Option<&str>, limits: &ReadLimits) -> Result<VoxelGrid, VolumeError> {
     read_vdb_bytes(&file::read(path, limits)?, &path.display().to_string(), grid, limits)
 }
 
-/// [`read_vdb`] for a file in memory; `label` stands for its path in messages.
+/// [`read_vdb`] for a file in memory; `label` is its path in messages.
 ///
 /// # Errors
 /// As [`read_vdb`].
@@ -78,19 +78,20 @@ pub fn read_vdb_bytes(
     bytes: &[u8],
     label: &str,
     grid: Option<&str>,
-    limits: &Limits,
+    limits: &ReadLimits,
 ) -> Result<VoxelGrid, VolumeError> {
     read(bytes, label, grid.into(), limits, &|_| (), |sparse, head| {
         head.array(dense::densify(&sparse, limits)?)
     })
 }
 
-/// As [`read_vdb_bytes`], but into blocks where the background is zero, telling `watch` the share that is done.
+/// As [`read_vdb_bytes`], but into blocks if the background is zero, with the completed fraction reported to
+/// `watch`.
 pub(super) fn read_sparse(
     bytes: &[u8],
     label: &str,
     grid: GridChoice<'_>,
-    limits: &Limits,
+    limits: &ReadLimits,
     watch: &dyn Fn(f64),
 ) -> Result<Volume, VolumeError> {
     read(bytes, label, grid, limits, watch, |sparse, head| {
@@ -102,10 +103,10 @@ pub(super) fn read_sparse(
     })
 }
 
-/// Class of a grid that holds signed distances.
+/// Class of a grid with signed distances.
 const LEVEL_SET: &str = "level set";
 
-/// What stands in front of a grid's tree.
+/// Data in front of the tree of a grid.
 struct Head {
     name: String,
     world_from_index: DAffine3,
@@ -125,21 +126,21 @@ impl Head {
     }
 }
 
-/// Share of the work that checking a file is, and that it is together with unpacking, as measured on a cloud of four
-/// million voxels.
+/// Completed fractions after validation and after unpacking, measured on a cloud of four million voxels.
 const CHECKED: f64 = 0.25;
 const UNPACKED: f64 = 0.8;
 
-/// Unpacks a grid and hands it on, telling `watch` the share that is done.
+/// Unpacks a grid and converts it with `then`, reporting the completed fraction to `watch`.
 fn read<T>(
     bytes: &[u8],
     label: &str,
     grid: GridChoice<'_>,
-    limits: &Limits,
+    limits: &ReadLimits,
     watch: &dyn Fn(f64),
     then: impl FnOnce(SparseGrid, Head) -> Result<T, Fault>,
 ) -> Result<T, VolumeError> {
-    let archive = Archive::open(bytes, limits).map_err(|fault| fault.in_file(label, None))?;
+    let archive = Archive::open(bytes, &|archive, index| preflight::end_of_grid(archive, index, limits))
+        .map_err(|fault| fault.in_file(label, None))?;
     let Chosen { index, preflight, notices } = choice::choose(&archive, label, grid, limits)?;
     let name = &archive.grids[index].display_name;
     let unpack = || {

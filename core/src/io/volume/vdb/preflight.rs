@@ -1,9 +1,9 @@
-//! Everything that is checked before `vdb-rs` sees a byte.
+//! Validation of a grid before its bytes reach `vdb-rs`.
 
 use glam::DAffine3;
 
 use super::super::error::Fault;
-use super::super::limits::Limits;
+use super::super::read_limits::ReadLimits;
 use super::archive::Archive;
 use super::block::BlockFormat;
 use super::descriptor::GridDescriptor;
@@ -11,24 +11,24 @@ use super::transcript::Transcript;
 use super::tree::{Topology, Walk};
 use super::value_type::ValueType;
 
-/// A grid that may be given to `vdb-rs`.
+/// A validated grid.
 #[derive(Debug)]
 pub(super) struct Preflight {
-    /// The bytes to give.
+    /// Input for `vdb-rs`.
     pub(super) transcript: Vec<u8>,
     pub(super) format: BlockFormat,
     pub(super) topology: Topology,
     pub(super) world_from_index: DAffine3,
-    /// Grid class as in the file, for example `fog volume`.
+    /// Grid class in the file, for example `fog volume`.
     pub(super) class: String,
-    /// Active voxels, as the writer counted them.
+    /// Number of active voxels stated by the writer.
     pub(super) voxel_count: Option<i64>,
-    /// First and last active index coordinates, as the writer found them.
+    /// First and last active index coordinates stated by the writer.
     pub(super) bbox: Option<[i32; 6]>,
 }
 
-/// Checks grid `index` from its descriptor to its last leaf.
-pub(super) fn check(archive: &Archive, index: usize, limits: &Limits) -> Result<Preflight, Fault> {
+/// Validates grid `index` from its descriptor to its last leaf.
+pub(super) fn check(archive: &Archive, index: usize, limits: &ReadLimits) -> Result<Preflight, Fault> {
     let grid = descriptor(archive, index)?;
     let head = archive.grid_head(grid)?;
     let (world_from_index, _) = head.map?;
@@ -47,13 +47,13 @@ pub(super) fn check(archive: &Archive, index: usize, limits: &Limits) -> Result<
     })
 }
 
-/// Grid class from its metadata entry.
+/// Grid class from its metadata entry; `unknown` if empty.
 pub(super) fn class(entry: Option<String>) -> String {
     entry.filter(|class| !class.is_empty()).unwrap_or_else(|| "unknown".to_owned())
 }
 
-/// Where the bytes of a grid end in a file that does not say so, in bytes.
-pub(super) fn end_of_grid(archive: &Archive, index: usize, limits: &Limits) -> Result<u64, Fault> {
+/// Offset of the end of a grid in a file without offsets, in bytes.
+pub(super) fn end_of_grid(archive: &Archive, index: usize, limits: &ReadLimits) -> Result<u64, Fault> {
     let grid = descriptor(archive, index)?;
     if grid.instance_parent.is_empty() {
         walk(archive, grid, limits).map(|tree| tree.end)
@@ -67,17 +67,17 @@ fn descriptor<'a>(archive: &'a Archive, index: usize) -> Result<&'a GridDescript
     archive.grids.get(index).ok_or_else(|| Fault::invalid(None, format!("no grid number {index}")))
 }
 
-/// A tree that has been walked from its first byte to its last.
+/// A tree that has been walked completely.
 struct WalkedTree {
     transcript: Vec<u8>,
     format: BlockFormat,
     topology: Topology,
-    /// Offset of the byte behind it in the file.
+    /// Offset in the file of the byte behind the tree.
     end: u64,
 }
 
-/// Walks the tree of a grid that has one of its own.
-fn walk(archive: &Archive, grid: &GridDescriptor, limits: &Limits) -> Result<WalkedTree, Fault> {
+/// Walks the tree of a grid that is not an instance.
+fn walk(archive: &Archive, grid: &GridDescriptor, limits: &ReadLimits) -> Result<WalkedTree, Fault> {
     let value_type = ValueType::of_tree(&grid.tree_type)?;
     let head = archive.grid_head(grid)?;
     let (_, cursor) = head.map?;
@@ -88,7 +88,7 @@ fn walk(archive: &Archive, grid: &GridDescriptor, limits: &Limits) -> Result<Wal
         value_type,
         stored: value_type.stored(half),
     };
-    // A transcript is not much longer than what it is made of: all else in it fits 512 bytes.
+    // A transcript is only slightly longer than the bytes copied: the remainder fits into 512 bytes.
     let mut transcript = Transcript::begin(&format, 512 + cursor.remaining());
     let mut walk = Walk::new(cursor, transcript.tree(), format, limits);
     walk.topology()?;
@@ -101,7 +101,7 @@ fn walk(archive: &Archive, grid: &GridDescriptor, limits: &Limits) -> Result<Wal
     if let Some(expected) = grid.extent.end.filter(|&expected| expected != end) {
         return Err(Fault::invalid(
             end,
-            format!("the leaf values end here, but the grid is said to end at byte {expected}"),
+            format!("the leaf values end here, but the grid is declared to end at byte {expected}"),
         ));
     }
     let topology = walk.finish();

@@ -1,4 +1,4 @@
-//! `vdb-rs` unpacks what the preflight has checked; the result is flattened and checked again.
+//! Unpacking of a validated grid by `vdb-rs`; the result is flattened and checked again.
 
 use std::io::Cursor as IoCursor;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -8,18 +8,18 @@ use vdb_rs::{Grid, Node4, Node5, VdbReader};
 
 use super::super::counted::Counted;
 use super::super::error::Fault;
-use super::super::limits::allocate;
+use super::super::read_limits::allocate;
 use super::block::BlockFormat;
 use super::mask;
 use super::preflight::Preflight;
-use super::sparse::{Leaf, SparseGrid, Tile};
+use super::sparse::{LEAF_EDGE, LEAF_VOXELS, Leaf, SparseGrid, Tile};
 use super::transcript::GRID_NAME;
-use super::tree::{LEAF_EDGE, LEAF_VOXELS, Topology, UPPER_EDGE};
+use super::tree::{Topology, UPPER_EDGE};
 use super::value_type::Stored;
 
-/// Values as `vdb-rs` reads them.
+/// A voxel value as read by `vdb-rs`.
 trait StoredValue: Copy {
-    /// The channels; a scalar is repeated in all three.
+    /// Values per channel; a scalar is repeated in all three channels.
     fn channels(self) -> [f32; 3];
 }
 
@@ -46,15 +46,15 @@ impl_stored_value! {
     i64 => |value| value as f32;
 }
 
-/// Unpacks a grid that passed the preflight, telling `watch` the share that is done.
+/// Unpacks a validated grid, reporting the completed fraction to `watch`.
 ///
 /// # Errors
-/// `vdb-rs` fails, or its tree disagrees with the walk, or with the writer's own voxel count and
-/// bounding box.
+/// When `vdb-rs` fails, or its tree disagrees with the walk, or with the writer's voxel count and bounding
+/// box.
 pub(super) fn unpack(preflight: Preflight, watch: &dyn Fn(f64)) -> Result<SparseGrid, Fault> {
     let Preflight { transcript, format, topology, voxel_count, bbox, .. } = preflight;
-    // The transcript holds nothing that `vdb-rs` is known to panic on. Should it all the same,
-    // the user gets an error and keeps the program.
+    // The transcript contains nothing on which `vdb-rs` is known to panic. If it panics nevertheless, the
+    // user gets an error and the program continues.
     let unpacked = catch_unwind(AssertUnwindSafe(|| unpack_transcript(&transcript, &format, watch)));
     let mut grid = unpacked.unwrap_or_else(|_| {
         Err(Fault::unsupported(
@@ -103,7 +103,7 @@ fn refusal(error: vdb_rs::ParseError) -> Fault {
     Fault::invalid(None, what)
 }
 
-/// Turns the tree into leaves and tiles, consuming it node by node to keep the memory low.
+/// Converts the tree to leaves and tiles, consuming it node by node to limit memory.
 fn flatten<T: StoredValue>(tree: Grid<T>, format: &BlockFormat) -> Result<SparseGrid, Fault> {
     let channels = format.value_type.channels();
     let lower_nodes = || tree.tree.root_nodes.iter().flat_map(|upper| upper.nodes.values());
@@ -119,7 +119,7 @@ fn flatten<T: StoredValue>(tree: Grid<T>, format: &BlockFormat) -> Result<Sparse
         let Node5 { child_mask, value_mask, nodes, data, origin } = upper;
         let masks = (child_mask.as_raw_slice(), value_mask.as_raw_slice());
         push_tiles(&mut grid.tiles, masks, &data, origin.to_array(), (5, UPPER_EDGE), format)?;
-        // vdb-rs keeps children in a hash map; the file has them in ascending order.
+        // `vdb-rs` stores children in a hash map; the file has them in ascending order.
         for (_, lower) in in_order(nodes) {
             let Node4 { child_mask, value_mask, nodes, data, origin } = lower;
             let masks = (child_mask.as_raw_slice(), value_mask.as_raw_slice());
@@ -146,7 +146,7 @@ fn in_order<T>(nodes: std::collections::HashMap<u32, T>) -> Vec<(u32, T)> {
     nodes
 }
 
-/// Adds the active tiles of an internal node with 2^`log2_dim` entries of `edge` voxels per axis.
+/// Adds the active tiles of an internal node with 2^`log2_dim` entries per axis, each of `edge` voxels.
 fn push_tiles<T: StoredValue>(
     tiles: &mut Vec<Tile>,
     (children, active): (&[u64], &[u64]),
@@ -155,7 +155,7 @@ fn push_tiles<T: StoredValue>(
     (log2_dim, edge): (u32, i32),
     format: &BlockFormat,
 ) -> Result<(), Fault> {
-    // Before version 222 a node stores no values for its children, so positions shift.
+    // Before version 222 a node stores no values for its children, so that positions shift.
     let mut children = mask::ones(children).filter(|_| !format.is_tagged()).peekable();
     let mut children_before = 0;
     for entry in mask::ones(active) {
@@ -173,17 +173,17 @@ fn wrong_length(what: &str) -> Fault {
     Fault::invalid(None, format!("a {what} with the wrong number of values"))
 }
 
-/// The tree of `vdb-rs` has the leaves of our walk, in the same order.
+/// Checks that the tree of `vdb-rs` has the leaves of the walk, in the same order.
 fn check_topology(grid: &SparseGrid, topology: &Topology) -> Result<(), Fault> {
     let same = |(leaf, walked): (&Leaf, &([i32; 3], [u64; 8]))| (leaf.origin, leaf.active) == *walked;
     let all = grid.leaves.iter().zip(&topology.leaves).all(same);
     if all && grid.leaves.len() == topology.leaves.len() {
         return Ok(());
     }
-    Err(Fault::invalid(None, "vdb-rs found other leaves than our own walk through the tree"))
+    Err(Fault::invalid(None, "vdb-rs found leaves that differ from those of the walk through the tree"))
 }
 
-/// Voxel count and bounding box agree with what the writer noted, where it did.
+/// Checks voxel count and bounding box against those stated by the writer, if any.
 fn check_summary(grid: &SparseGrid, voxel_count: Option<i64>, bbox: Option<[i32; 6]>) -> Result<(), Fault> {
     let counted = grid.active_voxels();
     if let Some(noted) = voxel_count.filter(|&noted| u64::try_from(noted) != Ok(counted)) {

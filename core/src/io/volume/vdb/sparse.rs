@@ -1,32 +1,36 @@
-//! A tree flattened to leaves and tiles: small whatever volume it covers.
+//! A tree flattened to leaves and tiles; its size does not depend on the extent of the volume.
 
 use super::mask;
-use super::tree::{LEAF_EDGE, LEAF_VOXELS};
+
+/// Voxels along the edge of a leaf, that is, of an entry of a 16³ node.
+pub(super) const LEAF_EDGE: i32 = 8;
+/// Voxels of a leaf.
+pub(super) const LEAF_VOXELS: usize = 512;
 
 /// An 8³ block of voxels.
 #[derive(Debug, Clone)]
 pub(super) struct Leaf {
     /// Index coordinates of its first voxel.
     pub(super) origin: [i32; 3],
-    /// Active voxels: one word per x, bits `8 y + z`.
+    /// Mask of active voxels: one word per x, bits `8 y + z`.
     pub(super) active: [u64; 8],
 }
 
-/// An active cube of one value.
+/// An active cube of constant value.
 #[derive(Debug, Clone)]
 pub(super) struct Tile {
     /// Index coordinates of its first voxel.
     pub(super) origin: [i32; 3],
     /// Voxels along an edge: 8, 128 or 4096.
     pub(super) edge: i32,
-    /// A scalar is repeated in all three channels.
+    /// Value per channel; a scalar is repeated in all three channels.
     pub(super) value: [f32; 3],
 }
 
-/// A grid as leaves and tiles. Inactive voxels are background.
+/// A grid as leaves and tiles. Inactive voxels have the background value.
 #[derive(Debug)]
 pub(super) struct SparseGrid {
-    /// 1 or 3.
+    /// Values per voxel: 1 or 3.
     pub(super) channels: usize,
     pub(super) background: [f32; 3],
     pub(super) leaves: Vec<Leaf>,
@@ -42,15 +46,15 @@ pub(super) struct IndexBox {
     pub(super) max: [i32; 3],
 }
 
-/// Summary of the active voxels. Tiles count by their volume.
+/// Statistics of the active voxels. Tiles count by their volume.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ActiveStats {
     pub(super) voxels: u64,
-    /// Voxels with a NaN or infinite channel; they enter no number below.
+    /// Voxels with a NaN or infinite channel; excluded from the values below.
     pub(super) non_finite: u64,
-    /// Over all channels.
+    /// Smallest value over all channels.
     pub(super) min: Option<f32>,
-    /// Over all channels.
+    /// Largest value over all channels.
     pub(super) max: Option<f32>,
     sum: f64,
 }
@@ -62,7 +66,7 @@ impl SparseGrid {
         self.leaves.iter().zip(values)
     }
 
-    /// The box around the active voxels; `None` if there are none.
+    /// Bounding box of the active voxels; `None` if there are none.
     pub(super) fn active_bbox(&self) -> Option<IndexBox> {
         let leaves = self.leaves.iter().filter_map(Leaf::active_bbox);
         leaves.chain(self.tiles.iter().map(Tile::bbox)).reduce(IndexBox::union)
@@ -74,7 +78,7 @@ impl SparseGrid {
         self.tiles.iter().fold(in_leaves, |sum, tile| sum.saturating_add(tile.voxels()))
     }
 
-    /// Summary of the active voxels.
+    /// Statistics of the active voxels.
     pub(super) fn stats(&self) -> ActiveStats {
         let mut stats = ActiveStats::default();
         for (leaf, values) in self.leaves() {
@@ -121,7 +125,7 @@ impl IndexBox {
         }
     }
 
-    /// What both boxes have in common, if anything.
+    /// Intersection of both boxes; `None` if it is empty.
     pub(super) fn intersection(&self, other: &Self) -> Option<Self> {
         let min = [0, 1, 2].map(|axis| self.min[axis].max(other.min[axis]));
         let max = [0, 1, 2].map(|axis| self.max[axis].min(other.max[axis]));
@@ -133,7 +137,7 @@ impl IndexBox {
         [0, 1, 2].map(|axis| u64::from(self.max[axis].abs_diff(self.min[axis])) + 1)
     }
 
-    /// Minimum, then maximum.
+    /// Minimum followed by maximum.
     pub(super) fn to_array(self) -> [i32; 6] {
         let ([x, y, z], [u, v, w]) = (self.min, self.max);
         [x, y, z, u, v, w]

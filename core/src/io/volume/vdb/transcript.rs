@@ -1,9 +1,9 @@
-//! A file of our own for `vdb-rs`: one grid, and nothing in it that `vdb-rs` misreads.
+//! Rewritten file for `vdb-rs`: a single grid, without features that `vdb-rs` misreads.
 //!
-//! `vdb-rs` 0.6.0 panics on most maps, on files without offsets, and on any bad descriptor even
-//! of a grid that nobody asked for; it misreads half floats with mask compression and non-float
-//! backgrounds. Instead of its input file it gets this transcript: a head and a descriptor that
-//! are always the same, the masks that our walk has checked, and the value chunks, byte for byte.
+//! `vdb-rs` 0.6.0 panics on most maps, on files without offsets, and on any bad descriptor, even of a grid
+//! that was not requested; it misreads half floats with mask compression and non-float backgrounds. Instead
+//! of the input file it is given this transcript: a constant header and descriptor, the masks validated by
+//! the walk, and the value chunks, byte for byte.
 
 use super::block::BlockFormat;
 use super::header::{MAGIC, VERSION_MULTIPASS_IO, VERSION_NODE_MASK_COMPRESSION};
@@ -11,7 +11,7 @@ use super::header::{MAGIC, VERSION_MULTIPASS_IO, VERSION_NODE_MASK_COMPRESSION};
 /// Name of the only grid in a transcript.
 pub(super) const GRID_NAME: &str = "grid";
 
-/// A transcript up to the start of the tree, and where its offsets have to go.
+/// A transcript up to the start of the tree, with the position of its offsets.
 pub(super) struct Transcript {
     bytes: Vec<u8>,
     offsets_at: usize,
@@ -19,7 +19,7 @@ pub(super) struct Transcript {
 }
 
 impl Transcript {
-    /// Writes everything in front of the tree. `capacity` is the expected total, in bytes.
+    /// Writes the data in front of the tree. `capacity` is the expected total size in bytes.
     pub(super) fn begin(format: &BlockFormat, capacity: usize) -> Self {
         let mut bytes = Vec::with_capacity(capacity);
         bytes.extend(MAGIC);
@@ -48,12 +48,12 @@ impl Transcript {
         push_text(&mut bytes, "bool");
         bytes.extend(1_u32.to_le_bytes());
         bytes.push(u8::from(format.stored.is_half()));
-        push_text(&mut bytes, "UniformScaleMap"); // not used: we have read the true map
+        push_text(&mut bytes, "UniformScaleMap"); // not used: the actual map has been read
         bytes.extend([0; 5 * 3 * size_of::<f64>()]);
         Self { bytes, offsets_at, grid }
     }
 
-    /// Where the walk appends what it has checked.
+    /// Buffer to which the walk appends validated bytes.
     pub(super) fn tree(&mut self) -> &mut Vec<u8> {
         &mut self.bytes
     }

@@ -1,39 +1,35 @@
-//! The walk through a tree: every mask, tile and value block, checked against the file's length.
+//! Walk through a tree that validates every mask, tile and value block against the length of the file.
 //!
-//! Layout after OpenVDB's `tree/RootNode.h`, `tree/InternalNode.h` and `tree/LeafNode.h`
-//! (`readTopology`, then `readBuffers`), for the 5-4-3 tree. What passes is copied to a
-//! transcript; see [`super::transcript`].
+//! Layout after OpenVDB's `tree/RootNode.h`, `tree/InternalNode.h` and `tree/LeafNode.h` (`readTopology`,
+//! then `readBuffers`), for the 5-4-3 tree. Validated bytes are copied to a transcript; see
+//! [`super::transcript`].
 
 use std::collections::HashSet;
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
-use super::super::limits::Limits;
+use super::super::read_limits::ReadLimits;
 use super::block::BlockFormat;
 use super::mask;
-use super::sparse::Tile;
+use super::sparse::{LEAF_EDGE, LEAF_VOXELS, Tile};
 
 /// Voxels along the edge of a root tile or child.
 pub(super) const ROOT_EDGE: i32 = 4096;
 /// Voxels along the edge of an entry of a 32³ node, that is, of a 16³ node.
 pub(super) const UPPER_EDGE: i32 = 128;
-/// Voxels along the edge of an entry of a 16³ node, that is, of a leaf.
-pub(super) const LEAF_EDGE: i32 = 8;
 
 const UPPER_LOG2: u32 = 5;
 const LOWER_LOG2: u32 = 4;
 const UPPER_WORDS: usize = (1 << (3 * UPPER_LOG2)) / 64;
 const LOWER_WORDS: usize = (1 << (3 * LOWER_LOG2)) / 64;
 const LEAF_WORDS: usize = 8;
-/// Voxels of a leaf.
-pub(super) const LEAF_VOXELS: usize = 512;
 
-/// What the walk found, apart from the values.
+/// Topology found by the walk, without values.
 #[derive(Debug, Default)]
 pub(super) struct Topology {
-    /// Value of everything that the tree does not mention.
+    /// Value of all voxels that are not in the tree.
     pub(super) background: [f32; 3],
-    /// Active tiles of the root; `vdb-rs` passes over them, so they are taken from here.
+    /// Active tiles of the root; `vdb-rs` skips them, so they are taken from here.
     pub(super) root_tiles: Vec<Tile>,
     /// Origin and active mask of each leaf, in file order.
     pub(super) leaves: Vec<([i32; 3], [u64; LEAF_WORDS])>,
@@ -50,12 +46,12 @@ pub(super) struct Walk<'a, 'out> {
 }
 
 impl<'a, 'out> Walk<'a, 'out> {
-    /// Starts at the tree's first byte; checked bytes are appended to `out`.
+    /// Starts at the first byte of the tree; validated bytes are appended to `out`.
     pub(super) fn new(
         cursor: Cursor<'a>,
         out: &'out mut Vec<u8>,
         format: BlockFormat,
-        limits: &Limits,
+        limits: &ReadLimits,
     ) -> Self {
         Self {
             cursor,
@@ -72,12 +68,12 @@ impl<'a, 'out> Walk<'a, 'out> {
         self.cursor.position()
     }
 
-    /// Bytes in the transcript so far.
+    /// Length of the transcript so far, in bytes.
     pub(super) fn written(&self) -> u64 {
         self.out.len() as u64
     }
 
-    /// First half: the root, its tiles, and all masks.
+    /// Reads the first half: the root, its tiles, and all masks.
     pub(super) fn topology(&mut self) -> Result<(), Fault> {
         let at = self.position();
         let buffers = self.cursor.u32()?;
@@ -86,7 +82,7 @@ impl<'a, 'out> Walk<'a, 'out> {
         }
         self.topology.background = self.format.value_type.read(&mut self.cursor)?;
         let (tiles, children) = (self.cursor.u32()?, self.cursor.u32()?);
-        // Buffers, background (of four bytes, whatever the type), tiles, children.
+        // Buffers, background (four bytes for every type), tiles, children.
         for word in [1, 0, 0, children] {
             self.out.extend(word.to_le_bytes());
         }
@@ -108,7 +104,7 @@ impl<'a, 'out> Walk<'a, 'out> {
         Ok(())
     }
 
-    /// Second half: the values of the leaves.
+    /// Reads the second half: the values of the leaves.
     pub(super) fn leaf_values(&mut self) -> Result<(), Fault> {
         let leaves = std::mem::take(&mut self.topology.leaves);
         for (origin, active) in &leaves {
@@ -138,31 +134,31 @@ impl<'a, 'out> Walk<'a, 'out> {
         Ok(())
     }
 
-    /// What the walk found.
+    /// Returns the topology.
     pub(super) fn finish(self) -> Topology {
         self.topology
     }
 
-    /// Checks that the leaf values start where the file says they do.
+    /// Checks that the leaf values start at the offset stated by the file.
     pub(super) fn expect_leaf_values_at(&self, blocks: u64) -> Result<(), Fault> {
         let here = self.position();
         if blocks != here {
             return Err(Fault::invalid(
                 here,
-                format!("the leaf values are said to start at byte {blocks}, the masks end here"),
+                format!("the leaf values are declared to start at byte {blocks}, but the masks end here"),
             ));
         }
         Ok(())
     }
 
-    /// Origin of a tile or child of the root: a multiple of its edge, and no two alike.
+    /// Reads the origin of a root tile or child: a multiple of its edge, without duplicates.
     fn root_origin(&mut self, seen: &mut HashSet<[i32; 3]>) -> Result<[i32; 3], Fault> {
         let at = self.position();
         let origin = self.cursor.i32x3()?;
         if origin.iter().any(|n| n % ROOT_EDGE != 0) || !seen.insert(origin) {
             return Err(Fault::invalid(
                 at,
-                format!("the root entry at {origin:?} is off the {ROOT_EDGE} grid, or there twice"),
+                format!("the root entry at {origin:?} is off the {ROOT_EDGE} grid, or a duplicate"),
             ));
         }
         Ok(origin)
@@ -187,7 +183,7 @@ impl<'a, 'out> Walk<'a, 'out> {
         Ok(())
     }
 
-    /// Masks and tile values of an internal node; returns the mask of its children.
+    /// Reads masks and tile values of an internal node; returns the mask of its children.
     fn internal_node<const WORDS: usize>(&mut self) -> Result<[u64; WORDS], Fault> {
         let at = self.position();
         let children = self.masks::<WORDS>()?;
@@ -210,7 +206,7 @@ impl<'a, 'out> Walk<'a, 'out> {
         Ok(words)
     }
 
-    /// A value block, counted against the limit on unpacked bytes.
+    /// Reads a value block, counted against the limit on unpacked bytes.
     fn values(&mut self, len: usize, active: &[u64]) -> Result<(), Fault> {
         self.unpacked_bytes += (len * self.format.value_type.bytes()) as u64;
         if self.unpacked_bytes > self.max_unpacked_bytes {

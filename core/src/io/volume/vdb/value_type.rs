@@ -1,12 +1,12 @@
-//! What kinds of numbers a tree holds, and which kinds of trees are read.
+//! Value types of trees, and the supported tree types.
 
 use super::super::cursor::Cursor;
 use super::super::error::Fault;
 
-/// The value type of a tree, as named in its type (`Tree_float_5_4_3`).
+/// Value type of a tree, as part of its type name (`Tree_float_5_4_3`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ValueType {
-    /// Half floats in memory as in the file (OpenVDB 13), background and tiles included.
+    /// Half floats in memory and in the file (OpenVDB 13), including background and tiles.
     Half,
     Float,
     Double,
@@ -16,7 +16,7 @@ pub(super) enum ValueType {
     Vec3d,
 }
 
-/// How the values of a node's block are stored once unpacked.
+/// Storage type of the values of a block after decompression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stored {
     F16,
@@ -29,11 +29,11 @@ pub(super) enum Stored {
     F64x3,
 }
 
-/// The only tree shape that is in use: 32³ children of 16³ children of 8³ voxels.
+/// The only tree shape in use: 32³ children of 16³ children of 8³ voxels.
 const TREE_SHAPE: &str = "_5_4_3";
 
 impl ValueType {
-    /// The value type of a tree that we read, or why we do not read it.
+    /// Value type of a supported tree, or the reason why it is not supported.
     pub(super) fn of_tree(tree_type: &str) -> Result<Self, Fault> {
         let inner = tree_type.strip_prefix("Tree_");
         let Some(value) = inner.and_then(|inner| inner.strip_suffix(TREE_SHAPE)) else {
@@ -52,7 +52,7 @@ impl ValueType {
             "vec3d" => Self::Vec3d,
             "bool" | "mask" => {
                 return Err(Fault::unsupported(
-                    format!("a {value} grid, which marks voxels but has no densities"),
+                    format!("a {value} grid, which marks voxels but contains no densities"),
                     "Convert it to a float fog volume",
                 ));
             }
@@ -71,12 +71,12 @@ impl ValueType {
         })
     }
 
-    /// Bytes of one full-precision value: background, tiles, and inactive values.
+    /// Size in bytes of one full-precision value: background, tiles, and inactive values.
     pub(super) fn bytes(self) -> usize {
         self.stored(false).bytes()
     }
 
-    /// How blocks store this type. The half flag concerns real numbers only.
+    /// Storage type in blocks. The half flag applies to real numbers only.
     pub(super) fn stored(self, half: bool) -> Stored {
         match (self, half) {
             (Self::Half, _) => Stored::F16,
@@ -91,7 +91,7 @@ impl ValueType {
         }
     }
 
-    /// 1 or 3.
+    /// Number of channels: 1 or 3.
     pub(super) fn channels(self) -> usize {
         match self {
             Self::Half | Self::Float | Self::Double | Self::Int32 | Self::Int64 => 1,
@@ -99,12 +99,12 @@ impl ValueType {
         }
     }
 
-    /// Whether saving as `stored` narrows the values, as the half flag does to all real numbers but half floats.
+    /// Whether storing as `stored` narrows the values, as the half flag does for all real types except half.
     pub(super) fn is_narrowed(self, stored: Stored) -> bool {
         stored.is_half() && self != Self::Half
     }
 
-    /// Whether this is a single real number per voxel, as a density is.
+    /// Whether a voxel is a single real number, as required for a density.
     pub(super) fn is_real_scalar(self) -> bool {
         matches!(self, Self::Half | Self::Float | Self::Double)
     }
@@ -126,7 +126,7 @@ impl ValueType {
 }
 
 impl Stored {
-    /// Bytes of one value.
+    /// Size in bytes of one value.
     pub(super) fn bytes(self) -> usize {
         match self {
             Self::F16 => 2,

@@ -1,12 +1,9 @@
 //! Everything that the window can be asked to do. Widgets push commands; `logic` carries them out.
 
-use crate::lessons::Lesson;
-use crate::model::Source;
-use crate::wall::WallEdit;
+use super::{Arrangement, Source, WallEdit};
 use egui::ThemePreference;
 use majorant_core::scene::SceneDoc;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// What a file is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,7 +55,7 @@ pub enum Command {
     /// Shows the next view, or has the wall show one at a time.
     Flip,
     /// Switches between an arrangement and side by side.
-    Arrange(majorant_core::scene::Arrangement),
+    Arrange(Arrangement),
     /// Whether a drag on a picture draws the box that numbers are about.
     ToggleBoxTool,
     /// Shows or hides the numbers.
@@ -77,8 +74,8 @@ pub enum Command {
     ShowTab(&'static str),
     /// Opens a comparison that is set up already, by its name.
     OpenPreset(&'static str),
-    /// Opens a lesson, after asking about unsaved changes.
-    OpenLesson(Arc<Lesson>),
+    /// Opens the lesson with this id, after asking about unsaved changes.
+    OpenLesson(String),
     /// Goes on in it, or back.
     TurnLesson(isize),
     /// Takes a prediction down.

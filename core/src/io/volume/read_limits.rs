@@ -1,24 +1,24 @@
-//! How much a volume file may ask of this machine.
+//! Memory limits of volume files.
 
 use super::error::Fault;
 
-/// Ceilings on memory. A file of a megabyte can describe 70 billion voxels (a "tile bomb"),
-/// so each is checked before the memory is asked for.
+/// Upper bounds on memory. A file of a megabyte can describe 70 billion voxels (a "tile bomb"), so that each
+/// bound is checked before memory is allocated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Limits {
-    /// Longest file, in bytes.
+pub struct ReadLimits {
+    /// Length of a file, in bytes.
     pub max_file_bytes: u64,
-    /// Unpacked value blocks of a sparse tree, in bytes.
+    /// Size of the unpacked value blocks of a sparse tree, in bytes.
     pub max_tree_bytes: u64,
-    /// Values (voxels × channels) of the dense grid; each takes 4 bytes.
+    /// Number of values (voxels × channels) of a dense grid; each takes 4 bytes.
     pub max_dense_values: u64,
-    /// Blocks of 8³ voxels that the box of a sparse grid may have room for, empty ones included; each takes 4 bytes.
+    /// Number of 8³ blocks in the box of a sparse grid, empty ones included; each takes 4 bytes.
     pub max_blocks: u64,
 }
 
-impl Default for Limits {
-    /// 1 GiB each for the file, the unpacked tree and the dense grid, a quarter for the places of blocks: a box of
-    /// 3200³ voxels.
+impl Default for ReadLimits {
+    /// 1 GiB each for the file, the unpacked tree and the dense grid, and a quarter of that for the block
+    /// table: a box of 3200³ voxels.
     fn default() -> Self {
         Self {
             max_file_bytes: 1 << 30,
@@ -29,10 +29,10 @@ impl Default for Limits {
     }
 }
 
-impl Limits {
-    /// Number of values of a dense grid of that size, if it is within the limit.
+impl ReadLimits {
+    /// Number of values of a dense grid of this size, if it is within the limit.
     pub(super) fn dense_values(&self, size: [u64; 3], channels: usize) -> Result<usize, Fault> {
-        // Sides are at most 2^32, so three of them and a channel count fit in 128 bits.
+        // Sides are at most 2^32, so that three of them and a channel count fit in 128 bits.
         let needed = size.iter().map(|&n| u128::from(n)).product::<u128>() * channels as u128;
         let allowed = usize::try_from(needed).ok();
         allowed.filter(|_| needed <= u128::from(self.max_dense_values)).ok_or_else(|| {
@@ -46,9 +46,9 @@ impl Limits {
         })
     }
 
-    /// Checks the box of a sparse grid of that size.
+    /// Checks the box of a sparse grid of this size.
     pub(super) fn blocks(&self, size: [u64; 3]) -> Result<(), Fault> {
-        // A layer of background all around.
+        // Including a layer of background on every side.
         let needed = size.iter().map(|&n| u128::from((n + 2).div_ceil(8) + 1)).product::<u128>();
         if needed <= u128::from(self.max_blocks) {
             return Ok(());
@@ -63,7 +63,8 @@ impl Limits {
     }
 }
 
-/// An empty vector with room for `len` values; an error instead of an abort when memory is short.
+/// Allocates an empty vector with capacity `len`; returns an error instead of aborting if memory is
+/// exhausted.
 pub(super) fn allocate<T>(len: usize) -> Result<Vec<T>, Fault> {
     let mut values = Vec::new();
     values.try_reserve_exact(len).map_err(|_| {

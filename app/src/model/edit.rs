@@ -1,8 +1,8 @@
 //! What a comparison can be asked to become: pure edits of the document.
 
+use super::window::{Arrangement, Layer, Pair, WindowDoc};
 use majorant_core::scene::{
-    Arrangement, ContenderDoc, Fairness, Fault, Layer, MAX_VIEWS, MeasureId, Pair, ReferenceDoc, SceneDoc,
-    WhenExceeded,
+    ContenderDoc, Fairness, Fault, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc, WhenExceeded,
 };
 
 /// An edit of the comparison. Views count from 0.
@@ -75,7 +75,7 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
                 id.clone_into(&mut next.estimator.id);
                 doc.compare.views.push(next);
             }
-            (doc.compare.arrangement, doc.compare.pair) = (Arrangement::Grid, Pair(*view, count));
+            WindowDoc::edit(&mut doc, |w| (w.arrangement, w.pair) = (Arrangement::Grid, Pair(*view, count)));
         }
         WallEdit::Duplicate(view) if count < MAX_VIEWS => {
             if let Some(copy) = doc.contender(*view) {
@@ -87,15 +87,15 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
         WallEdit::Remove(view) if count > 1 && *view < count => remove(&mut doc, *view),
         WallEdit::Swap(a, b) if a != b && *a < count && *b < count => swap(&mut doc, *a, *b),
         WallEdit::Duplicate(_) | WallEdit::AddView(_) | WallEdit::Remove(_) | WallEdit::Swap(..) => {}
-        WallEdit::Arrange(arrangement) => doc.compare.arrangement = *arrangement,
-        WallEdit::Pair(pair) => doc.compare.pair = *pair,
-        WallEdit::Layer(id) => doc.compare.layer = Layer(id.clone()),
+        WallEdit::Arrange(arrangement) => WindowDoc::edit(&mut doc, |w| w.arrangement = *arrangement),
+        WallEdit::Pair(pair) => WindowDoc::edit(&mut doc, |w| w.pair = *pair),
+        WallEdit::Layer(id) => WindowDoc::edit(&mut doc, |w| w.layer = Layer(id.clone())),
         WallEdit::Fairness(fairness) => doc.compare.fairness = *fairness,
         WallEdit::Reference(reference) => doc.compare.reference = reference.clone(),
         WallEdit::Baseline(view) => doc.compare.baseline = *view,
         WallEdit::Measure(id) => doc.compare.measure = MeasureId(id.clone()),
         WallEdit::Region(region) => doc.compare.region = *region,
-        WallEdit::OwnZoom(own) => doc.compare.own_zoom = *own,
+        WallEdit::OwnZoom(own) => WindowDoc::edit(&mut doc, |w| w.own_zoom = *own),
         WallEdit::OwnCamera(view, own) => {
             let camera = own.then(|| doc.camera.clone());
             if let Some(contender) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
@@ -158,8 +158,7 @@ fn follow(doc: &mut SceneDoc, moved: impl Fn(usize) -> usize) {
         *view = moved(*view);
     }
     doc.compare.baseline = moved(doc.compare.baseline);
-    let Pair(a, b) = doc.compare.pair;
-    doc.compare.pair = Pair(moved(a), moved(b));
+    WindowDoc::edit(doc, |w| w.pair = Pair(moved(w.pair.0), moved(w.pair.1)));
 }
 
 fn swap(doc: &mut SceneDoc, a: usize, b: usize) {
@@ -183,13 +182,15 @@ fn keep_in_range(doc: &mut SceneDoc) {
     if matches!(compare.reference, ReferenceDoc::View { view } if view >= count) {
         compare.reference = ReferenceDoc::None;
     }
-    let Pair(a, b) = compare.pair;
-    if a >= count || b >= count || a == b {
-        compare.pair = Pair::default();
-    }
-    if count == 1 {
-        compare.arrangement = Arrangement::Grid;
-    }
+    WindowDoc::edit(doc, |w| {
+        let Pair(a, b) = w.pair;
+        if a >= count || b >= count || a == b {
+            w.pair = Pair::default();
+        }
+        if count == 1 {
+            w.arrangement = Arrangement::Grid;
+        }
+    });
 }
 
 #[cfg(test)]
@@ -231,7 +232,7 @@ mod tests {
         );
         let removed = after(&doc, &[WallEdit::Remove(0)]);
         assert_eq!(ids(&removed), ["independent", "spectral-mis"]);
-        assert_eq!((removed.compare.baseline, removed.compare.pair), (1, Pair(0, 1)));
+        assert_eq!((removed.compare.baseline, WindowDoc::of(&removed).pair), (1, Pair(0, 1)));
         assert_eq!(removed.compare.reference, ReferenceDoc::View { view: 1 });
         let gone = after(&doc, &[WallEdit::Remove(2)]);
         assert_eq!((gone.compare.baseline, &gone.compare.reference), (1, &ReferenceDoc::None));
@@ -239,7 +240,7 @@ mod tests {
         assert_eq!(ids(&swapped), ["spectral-mis", "independent", "uni-nee-mis"]);
         assert_eq!(after(&swapped, &[WallEdit::Swap(2, 0)]), doc);
         let copied = after(&doc, &[WallEdit::Duplicate(1)]);
-        assert_eq!((copied.compare.baseline, copied.compare.pair), (3, Pair(1, 3)));
+        assert_eq!((copied.compare.baseline, WindowDoc::of(&copied).pair), (3, Pair(1, 3)));
         assert_eq!(ids(&copied), ["uni-nee-mis", "independent", "independent", "spectral-mis"]);
         assert_eq!(copied.view_doc(2).map(|d| d.render.seed), Some(3));
         let only = SceneDoc::default();

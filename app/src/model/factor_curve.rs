@@ -1,0 +1,142 @@
+//! The curve of the majorant's factor, measured in the background while its panel shows it grow.
+
+use crate::background::{Background, Reply};
+use majorant_core::bench::{FactorPoint, factor_curve};
+use majorant_core::io::Library;
+use majorant_core::scene::SceneDoc;
+
+/// One point, or why there is none.
+type Measured = Result<FactorPoint, String>;
+
+/// A curve, the scene that it describes, and the worker that measures it.
+pub struct FactorCurve {
+    points: Vec<FactorPoint>,
+    /// The scene that was measured, with a factor of 1: the curve does not depend on it.
+    of: Option<SceneDoc>,
+    worker: Background<SceneDoc, Measured>,
+    error: Option<String>,
+}
+
+impl Default for FactorCurve {
+    fn default() -> Self {
+        Self { points: Vec::new(), of: None, worker: Background::new("factors", measure), error: None }
+    }
+}
+
+fn measure(resolved: SceneDoc, reply: &Reply<'_, SceneDoc, Measured>) {
+    let point = |point| reply.send(Ok(point));
+    if let Err(error) = factor_curve("the scene", &resolved, Library::default(), reply.cancel(), point) {
+        reply.send(Err(error.to_string()));
+    }
+}
+
+/// Everything that the curve depends on.
+fn subject(doc: &SceneDoc) -> SceneDoc {
+    let mut doc = doc.clone();
+    doc.medium.majorant.factor = 1.0;
+    SceneDoc {
+        title: String::new(),
+        note: String::new(),
+        view: SceneDoc::default().view,
+        render: SceneDoc::default().render,
+        compare: SceneDoc::default().compare,
+        window: toml::Table::new(),
+        ..doc
+    }
+}
+
+impl FactorCurve {
+    /// The points so far.
+    #[must_use]
+    pub fn points(&self) -> &[FactorPoint] {
+        &self.points
+    }
+
+    /// Whether it is being measured.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.worker.is_running()
+    }
+
+    /// What went wrong.
+    #[must_use]
+    pub fn error(&self) -> Option<&str> {
+        self.error.as_deref()
+    }
+
+    /// Whether the curve is of this document.
+    #[must_use]
+    pub fn is_of(&self, doc: &SceneDoc) -> bool {
+        self.of.as_ref().is_some_and(|of| *of == subject(doc))
+    }
+
+    /// Measures anew. All files of `resolved` have absolute names; `wake` is called at every point.
+    pub fn start(&mut self, doc: &SceneDoc, resolved: SceneDoc, wake: impl Fn() + Send + Sync + 'static) {
+        self.points.clear();
+        self.of = Some(subject(doc));
+        self.worker.set_wake(wake);
+        let started = self.worker.submit(resolved);
+        self.error = started.err().map(|error| format!("no thread could be started: {error}"));
+    }
+
+    /// Ends a measurement in progress; its points stay.
+    pub fn cancel(&mut self) {
+        self.poll();
+        self.worker.cancel();
+    }
+
+    /// Takes over the points measured since the last call.
+    pub fn poll(&mut self) {
+        for measured in self.worker.poll() {
+            match measured {
+                Ok(point) => self.points.push(point),
+                Err(error) => self.error = Some(error),
+            }
+        }
+        if self.worker.has_failed() {
+            self.error = Some("it stopped on an internal error; measure again".into());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use majorant_core::bench::FACTORS;
+    use majorant_core::io::scene_file;
+
+    fn finish(curve: &mut FactorCurve) {
+        while curve.is_running() {
+            std::thread::sleep(std::time::Duration::from_millis(2));
+            curve.poll();
+        }
+    }
+
+    #[test]
+    fn it_is_measured_of_one_scene_and_says_of_which() {
+        let doc = scene_file::parse(
+            "majorant = 1\nlights = [{ kind = \"environment\" }]\nfilm = { width = 8, height = 8 }",
+            "a cube",
+        );
+        let mut doc = doc.unwrap();
+        let mut curve = FactorCurve::default();
+        assert!(!curve.is_of(&doc));
+        curve.start(&doc, doc.clone(), || {});
+        finish(&mut curve);
+        assert_eq!(curve.points().len(), FACTORS.len());
+        doc.medium.majorant.factor = 2.0;
+        assert!(curve.is_of(&doc) && curve.error().is_none());
+        doc.medium.scale = 2.0;
+        assert!(!curve.is_of(&doc));
+    }
+
+    #[test]
+    fn a_file_that_is_missing_becomes_a_message() {
+        let doc = "majorant = 1\n[medium]\ndensity = { kind = \"grid\", file = \"/none.vdb\" }";
+        let mut curve = FactorCurve::default();
+        let doc = scene_file::parse(doc, "missing").unwrap();
+        curve.start(&doc, doc.clone(), || {});
+        finish(&mut curve);
+        assert!(curve.error().is_some_and(|e| e.contains("none.vdb")), "{:?}", curve.error());
+    }
+}
