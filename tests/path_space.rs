@@ -290,7 +290,7 @@ impl<M: Medium> Setup<'_, M> {
         hero: usize,
     ) -> World<'_, M::Local<'_, N>, C, N> {
         let u = (path.u + hero as f32 / N as f32).fract();
-        let components = C::sample(u, WavelengthSampling::Sensor);
+        let components = C::sample(u, Some(WavelengthSampling::Sensor));
         World {
             scene: self.scene,
             medium: self.medium.local(&components),

@@ -146,7 +146,7 @@ pub struct Background<Order, Answer> {
     name: &'static str,
     inbox: Inbox<Order, Answer>,
     work: Work<Order, Answer>,
-    /// Pause after an order, as a function of the order's duration, measured from the start of the order.
+    /// Minimum time between the starts of two orders, as a function of the duration of the first.
     rest: Arc<dyn Fn(Duration) -> Duration + Send + Sync>,
     thread: Option<JoinHandle<()>>,
     /// Number of orders of this epoch.
@@ -188,7 +188,7 @@ impl<Order: Send + 'static, Answer: Send + 'static> Background<Order, Answer> {
         self
     }
 
-    /// Inserts a pause between orders, as a function of the duration of the last order.
+    /// Sets the minimum time between the starts of two orders, as a function of the duration of the first.
     #[must_use]
     pub fn resting(mut self, rest: impl Fn(Duration) -> Duration + Send + Sync + 'static) -> Self {
         self.rest = Arc::new(rest);

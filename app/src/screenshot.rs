@@ -54,8 +54,7 @@ impl Screenshot {
 }
 
 fn write(path: &Path, image: &ColorImage) -> Result<(), String> {
-    let problem =
-        |reason: String| format!("{}: the screenshot cannot be written: {reason}", path.display());
+    let problem = |reason: String| format!("{}: the screenshot cannot be written: {reason}", path.display());
     let side = |n: usize| u32::try_from(n).map_err(|e| problem(e.to_string()));
     let (width, height) = (side(image.width())?, side(image.height())?);
     let bytes = image.pixels.iter().flat_map(|p| [p.r(), p.g(), p.b()]).collect();

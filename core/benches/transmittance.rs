@@ -49,7 +49,7 @@ fn in_media(c: &mut Criterion) {
         let doc = common::doc(name);
         let scene = common::frozen(&doc);
         let AnyMedium::DensityGrid(medium) = &scene.medium else { continue };
-        let local = medium.local(&Wavelengths::<4>::sample(0.3, doc.estimator.wavelengths));
+        let local = medium.local(&Wavelengths::<4>::sample(0.3, Some(doc.estimator.wavelengths)));
         let mut group = c.benchmark_group(format!("transmittance/{name}"));
         group.throughput(Throughput::Elements(u64::from(RAYS)));
         for kind in TransmittanceKind::all() {

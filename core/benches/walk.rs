@@ -27,7 +27,7 @@ fn walk(c: &mut Criterion) {
                 for path in 0..256 {
                     let mut trace = Trace::new(Sampler::new(3, path, 0), CancelToken::NEVER);
                     let components =
-                        Wavelengths::<4>::sample(trace.sampler.next_1d(), doc.estimator.wavelengths);
+                        Wavelengths::<4>::sample(trace.sampler.next_1d(), Some(doc.estimator.wavelengths));
                     let local = medium.local(&components);
                     let ray = scene.camera.ray(trace.sampler.next_2d() * size);
                     let mut walk = Walk::new(&local, &scene, &ray, f32::INFINITY, Absorption::Weighted);

@@ -1,18 +1,17 @@
 //! Monte Carlo light transport in participating media, on the null-scattering path integral.
 //!
 //! ```text
-//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator ─► session ─► compare ─► bench ─► figures
-//!                                                          ▲                                             ▲
-//!                                         io (scenes, volumes, pictures, results)          measure (errors)
+//!   math ─► spectrum ─► medium, phase, surface, light ─► scene ─► transport ─► estimator
 //!   medium ─► transmittance (of a ray) ─► transport
-//!   estimator ─► inspect (paths taken apart) ─► session
-//!   film ─► measure (errors of a picture against a reference)
+//!   scene ─► io (scenes, volumes, images, results) ─► session
+//!   estimator ─► inspect (analysis of paths) ─► session ─► compare ─► bench ─► figures
+//!   film ─► measure (errors of an image against a reference) ─► compare
 //! ```
 //!
-//! A [`scene::SceneDoc`] is what people edit; [`scene::build`] freezes it into a [`scene::Scene`]; a
-//! [`session::Session`] renders views of it in the background and publishes [`film::Snapshot`]s.
-//! Rooms follow concepts: one estimator, one medium, one phase function, one light is one file.
-//! Imports point one way, along the arrows. Nothing here knows a window.
+//! A [`scene::SceneDoc`] is the editable document; [`scene::build`] freezes it into a [`scene::Scene`]; a
+//! [`session::Session`] renders views of it in the background and publishes [`film::Snapshot`]s. Modules
+//! follow concepts: one estimator, medium, phase function or light per file. Imports follow the arrows only.
+//! The crate does not depend on the window.
 
 pub mod bench;
 pub mod check;
@@ -38,7 +37,7 @@ pub mod transport;
 mod tests {
     use std::path::{Path, PathBuf};
 
-    /// Rooms from the lowest to the highest; those of one line may use each other.
+    /// Modules from the lowest to the highest layer; modules of one layer may use each other.
     const LAYERS: &[&[&str]] = &[
         &["math"],
         &["spectrum"],
@@ -56,8 +55,8 @@ mod tests {
         &["figures"],
     ];
 
-    fn layer(room: &str) -> usize {
-        LAYERS.iter().position(|l| l.contains(&room)).unwrap_or_else(|| panic!("no layer for `{room}`"))
+    fn layer(module: &str) -> usize {
+        LAYERS.iter().position(|l| l.contains(&module)).unwrap_or_else(|| panic!("no layer for `{module}`"))
     }
 
     fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
@@ -79,13 +78,13 @@ mod tests {
         assert!(files.len() > 50);
         for file in files {
             let relative = file.strip_prefix(&root).unwrap();
-            let room = relative.iter().next().unwrap().to_str().unwrap();
-            if room == "lib.rs"
+            let module = relative.iter().next().unwrap().to_str().unwrap();
+            if module == "lib.rs"
                 || file.file_name().is_some_and(|name| name.to_string_lossy().ends_with("tests.rs"))
             {
                 continue;
             }
-            // Tests and comments may look anywhere.
+            // Tests and comments may refer to any module.
             let text = std::fs::read_to_string(&file).unwrap();
             let code = text.split("#[cfg(test)]").next().unwrap_or_default();
             for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
@@ -93,8 +92,8 @@ mod tests {
                     let name: String =
                         used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
                     assert!(
-                        layer(&name) <= layer(room),
-                        "{}: {room} must not use {name}: {line}",
+                        layer(&name) <= layer(module),
+                        "{}: {module} must not use {name}: {line}",
                         relative.display()
                     );
                 }

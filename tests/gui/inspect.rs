@@ -155,7 +155,7 @@ fn noise_is_explained_and_the_advice_is_tried_beside() {
 }
 
 #[test]
-fn a_planted_fault_is_announced_held_against_the_right_one_and_found() {
+fn a_fault_is_announced_compared_with_the_correct_image_and_found() {
     let (mut lab, _directory) = lab();
     open(&mut lab, "What goes wrong");
     let choose = |lab: &mut Lab, name: &str| {
@@ -167,7 +167,7 @@ fn a_planted_fault_is_announced_held_against_the_right_one_and_found() {
     for entry in Fault::ALL.iter().filter_map(|fault| fault.entry()) {
         choose(&mut lab, entry.name);
         assert_eq!(doc(&lab).estimator.fault.entry().map(|e| e.name), Some(entry.name));
-        assert!(lab.query_by_label_contains("Planted on purpose").is_some());
+        assert!(lab.query_by_label_contains("Deliberate fault").is_some());
         lab.check_accessibility();
     }
     choose(&mut lab, "Algorithm 4 as printed");
@@ -188,9 +188,9 @@ fn a_planted_fault_is_announced_held_against_the_right_one_and_found() {
             |label: &str| analysis.standing(label).and_then(|s| s.agreement.as_ref().map(|a| a.verdict));
         verdict("A") == Some(Verdict::Differs) && verdict("B") == Some(Verdict::Agrees)
     });
-    click(&mut lab, Role::Button, "Take it out");
+    click(&mut lab, Role::Button, "Remove it");
     assert_eq!(doc(&lab).estimator.fault, right);
-    assert!(lab.query_by_label_contains("Planted on purpose").is_none());
+    assert!(lab.query_by_label_contains("Deliberate fault").is_none());
 }
 
 #[test]

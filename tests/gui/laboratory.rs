@@ -68,7 +68,7 @@ fn a_choice_that_an_estimator_does_not_have_is_greyed_out() {
 fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     let (mut lab, _directory) = lab();
     open(&mut lab, "Majorant");
-    open(&mut lab, "Cost and truth by factor");
+    open(&mut lab, "Cost and bias by factor");
     // Thin, so that its many paths are short.
     let mut thin = doc(&lab).clone();
     thin.medium.scale = 0.02;

@@ -52,7 +52,7 @@ fn this_scene_is_checked_estimator_against_estimator() {
 fn closing_cancels() {
     let (mut lab, _directory) = lab();
     opened(&mut lab);
-    click(&mut lab, Role::Button, "How hard to look: Deep");
+    click(&mut lab, Role::Button, "Effort: Deep");
     click(&mut lab, Role::Button, "Run");
     wait(&mut lab, "the first rows", |app| !app.self_check().rows().is_empty());
     assert!(lab.state().self_check().is_running());

@@ -94,5 +94,5 @@ fn the_lab_measures_how_soon_it_answers() {
     assert!(latency.frames().is_some_and(|frames| frames.median > 0.0));
     open(&mut lab, "Render");
     open(&mut lab, "Latency");
-    lab.get_by_label_contains("First picture");
+    lab.get_by_label_contains("First image");
 }

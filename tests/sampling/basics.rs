@@ -51,7 +51,8 @@ fn directions_are_uniform_and_cosine_weighted() {
 fn wavelengths<const N: usize>(family: &mut Family) {
     let mut sampler = Sampler::new(4, N as u64, 0);
     let uniform = WavelengthSampling::Uniform;
-    let sets: Vec<_> = (0..SAMPLES).map(|_| Wavelengths::<N>::sample(sampler.next_1d(), uniform)).collect();
+    let sets: Vec<_> =
+        (0..SAMPLES).map(|_| Wavelengths::<N>::sample(sampler.next_1d(), Some(uniform))).collect();
     for i in 0..N {
         let over_range = sets.iter().map(|set| {
             assert!((LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&set.lambda_nm[i]));
@@ -65,7 +66,7 @@ fn channels<const N: usize>(family: &mut Family) {
     let mut sampler = Sampler::new(5, N as u64, 0);
     let mut counts = [0; 3];
     for _ in 0..SAMPLES {
-        let set = RgbChannels::<N>::sample(sampler.next_1d(), WavelengthSampling::Uniform);
+        let set = RgbChannels::<N>::sample(sampler.next_1d(), Some(WavelengthSampling::Uniform));
         counts[set.channel[0]] += 1;
         assert!((1..N).all(|i| set.channel[i] == (set.channel[0] + i) % 3), "{set:?} is no rotation");
     }

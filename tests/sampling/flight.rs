@@ -176,17 +176,17 @@ fn flights_follow_the_majorant_and_real_collisions_the_extinction() {
         let name = format!("{} × {factor}, {cells}³", if grid { "grid" } else { "homogeneous" });
         let rgb = scene(grid, &format!("{{ rgb = {RGB:?} }}"), factor, cells);
         for (u, hero) in [0.2, 0.5, 0.8].into_iter().zip(RGB) {
-            let set = RgbChannels::<3>::sample(u, BY);
+            let set = RgbChannels::<3>::sample(u, Some(BY));
             fly_at(&mut family, &format!("{name}, {set:?}"), (&rgb, &line), (&set, hero, factor), 9.0);
         }
         let spectral = scene(grid, &format!("\"{}\"", points.join(", ")), factor, cells);
         for u in [0.12, 0.3, 0.55] {
-            let set = Wavelengths::<4>::sample(u, BY);
+            let set = Wavelengths::<4>::sample(u, Some(BY));
             let hero = between_points(f64::from(set.lambda_nm[0]));
             fly_at(&mut family, &format!("{name}, {set:?}"), (&spectral, &line), (&set, hero, factor), 9.0);
         }
         // The way to a surface within the box.
-        let (set, end) = (RgbChannels::<1>::sample(0.5, BY), 0.4 * line.enter + 0.6 * line.exit);
+        let (set, end) = (RgbChannels::<1>::sample(0.5, Some(BY)), 0.4 * line.enter + 0.6 * line.exit);
         fly_at(&mut family, &format!("{name}, cut short"), (&rgb, &line), (&set, RGB[1], factor), end);
     }
     family.judge();

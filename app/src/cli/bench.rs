@@ -1,4 +1,4 @@
-//! `majorant bench`: how much certainty does a second buy, per estimator and scene?
+//! `majorant bench`: efficiency per estimator and scene at equal time.
 
 mod subjects;
 mod table;
@@ -11,27 +11,27 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Every estimator is run on every scene for the same time, several times over, estimators taking turns so
-that a machine's moods meet all alike. Scenes are files or embedded ones; without any, the embedded scenes
-are run. A scene's own size, sampler and thread count hold; --set changes any key.
+Every estimator is run on every scene for the same time, repeatedly and in alternation, so that variations of
+the machine's speed affect all estimators alike. Scenes are files or embedded scenes; the default is all embedded
+scenes. Size, sampler and thread count are those of the scene; --set changes any key.
 
-Errors are measured against a picture that converged before: an EXR by --reference, reference.exr beside the
-scene file if there is one, or a run of its own, eight times as long as a trial (--reference-seconds), by
-Uni+NEE MIS without any setting that biases. What the reference's own noise adds is subtracted where the noise is
-known. A picture of another image, with the seed of a trial (render.seed and those after it), or with settings that bias
-is refused.
+Errors are measured against a converged reference: the EXR of --reference, reference.exr in the folder of the
+scene file if it exists, or a separate run by Uni+NEE MIS without biasing settings, eight times as long as a
+trial (--reference-seconds). Errors are corrected for the noise of the reference where it is known. A reference
+that shows a different image, has the seed of a trial (render.seed and the following), or has biasing settings is
+rejected.
 
   relMSE       mean over pixels and channels of (I − R)² / (R² + 0.01)
-  efficiency   1 / (relMSE · CPU seconds of all threads): twice as much means half the time
-  look-ups     look-ups of the medium to a relMSE of 1: the same whatever the machine
+  efficiency   1 / (relMSE · CPU seconds of all threads): twice the efficiency needs half the time
+  look-ups     look-ups of the medium for a relMSE of 1: independent of the machine
   speed-up     efficiency relative to the first estimator
 
-Intervals are 95 %, from the scatter of the repeats. A star marks errors of which one run has more than
-half: rare bright paths decide, and the interval is too narrow.
+Intervals have 95 % confidence, from the scatter of the repeats. A star marks rows in which one run has more
+than half of the error: rare bright paths dominate, and the interval is too narrow.
 
 --json prints one line per row: scene, estimator, repeats, threads, spp, wall_seconds, cpu_seconds,
 paths_per_second, lookups_per_path, relmse, efficiency, lookups_to_unit_error, speedup (each with mean, lo,
-hi), heavy_tailed, reference. --csv prints the same as columns. What is not finite is null or inf.
+hi), heavy_tailed, reference. --csv prints the same as columns. Non-finite values are null or inf.
 
 Examples:
   majorant bench first-light --seconds 4
@@ -39,7 +39,7 @@ Examples:
 pub(super) struct Arguments {
     /// Scene files, or names of embedded scenes.
     scenes: Vec<String>,
-    /// `all`, or ids that `majorant estimators` lists, with commas between them.
+    /// `all`, or comma-separated ids as listed by `majorant estimators`.
     #[arg(long, value_name = "IDS", value_delimiter = ',', default_value = "all")]
     estimators: Vec<String>,
     /// Wall-clock seconds of each run.
@@ -48,25 +48,25 @@ pub(super) struct Arguments {
     /// Samples per pixel of each run, instead of seconds.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "seconds")]
     spp: Option<u64>,
-    /// Runs of each estimator.
+    /// Number of runs per estimator.
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(2..))]
     repeats: u32,
-    /// An EXR picture that errors are measured against; for one scene.
+    /// Reference image (EXR) that errors are measured against; requires a single scene.
     #[arg(long, value_name = "FILE", conflicts_with = "reference_seconds")]
     reference: Option<PathBuf>,
-    /// Seconds of the reference's own run.
+    /// Seconds of the separate run for the reference.
     #[arg(long, value_name = "S", value_parser = parse_seconds)]
     reference_seconds: Option<f64>,
-    /// Worker threads; by default one per core.
+    /// Number of worker threads; one per core by default.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Sets any key of the scenes; `majorant keys` lists them. Repeatable.
+    /// Set any key of the scenes, as listed by `majorant keys`. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
     /// Print one line of JSON per row.
     #[arg(long, conflicts_with = "csv")]
     json: bool,
-    /// Print columns with commas between them.
+    /// Print comma-separated values.
     #[arg(long)]
     csv: bool,
 }
@@ -76,7 +76,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     if (0.01..=1e6).contains(&seconds) {
         Ok(seconds)
     } else {
-        Err(format!("{text} seconds: between 0.01 and a million make sense"))
+        Err(format!("{text} seconds: choose a number from 0.01 to a million"))
     }
 }
 

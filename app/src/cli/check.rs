@@ -1,4 +1,4 @@
-//! `majorant check`: is every estimator true?
+//! `majorant check`: validation of the estimators.
 
 use super::{Failure, print_line, progress, source};
 use majorant_core::check::{self, Answer, Case, Check, Effort, FAMILIES, Report, Row};
@@ -10,14 +10,14 @@ use std::path::Path;
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
 Without SCENE the built-in cases are checked, against closed forms, quadrature and each other (--list
-lists them). A family or a case of them can be named: `majorant check furnace half-space/weighted`. On a
-scene of your own nobody knows the answer: every estimator that is unbiased for it is held against every
-other, on a small picture of the scene, in about 45 seconds.
+lists them). A family or a single case can be named: `majorant check furnace half-space/weighted`. The
+expected image of your own scene is unknown: all estimators that are unbiased for it are compared with each
+other, on a small image of the scene, in about 45 seconds.
 
-One line per scene and estimator: the image's mean, what it should be, the z of their difference, the
-largest |z| of any block and channel and what chance allows, the bias of the mean that would have been
-seen with 95 % probability, and the verdict. --deep sees 1 % instead of 3, adds the pictures by
-independent renderers, and takes minutes.
+One line per scene and estimator: measured and expected mean of the image, the z of their difference, the
+largest |z| of any block and channel and its critical value, the bias of the mean that is detected with 95 %
+probability, and the verdict. --deep detects a bias of 1 % instead of 3 %, adds the images by independent
+renderers, and takes minutes.
 
 --json prints one line: passes, seconds, notes, and rows of scene, estimator, mode, measured, error,
 expected, z, worst_z, critical_z, detectable, paths, verdict (agrees, undecided: too
@@ -27,7 +27,7 @@ Exit code 1 if anything differs.")]
 pub(super) struct Arguments {
     /// Scene files, embedded scenes, or built-in families and cases.
     scenes: Vec<String>,
-    /// Look thoroughly: minutes instead of seconds.
+    /// Run the thorough check, which takes minutes instead of seconds.
     #[arg(long)]
     deep: bool,
     /// Print the result as one line of JSON.
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     bar.finish_and_clear();
     printed?;
-    // Nobody cancels it.
+    // The token is never cancelled, so that there is a report.
     finish(&report.unwrap_or_default(), arguments.json)
 }
 
@@ -80,10 +80,10 @@ fn finish(report: &Report, json: bool) -> Result<(), Failure> {
     if failures.is_empty() {
         return Ok(());
     }
-    Err(Failure::Message(format!("not what it should be: {}", failures.join(", "))))
+    Err(Failure::Message(format!("not the expected image: {}", failures.join(", "))))
 }
 
-/// What was asked for, as one family of comparisons.
+/// Creates the check that the arguments request, as one family of comparisons.
 fn plan(arguments: &Arguments) -> Result<Check, Failure> {
     let effort = if arguments.deep { Effort::DEEP } else { Effort::QUICK };
     if arguments.scenes.is_empty() {
@@ -120,7 +120,7 @@ fn plan(arguments: &Arguments) -> Result<Check, Failure> {
 fn heading(width: usize) -> String {
     format!(
         "{:width$}  {:13} {:8}  {:>10} ± {:<8}  {:>10}  {:>6}  {:>13}  {:>7}  verdict",
-        "scene", "estimator", "mode", "measured", "error", "expected", "z", "worst |z|", "sees"
+        "scene", "estimator", "mode", "measured", "error", "expected", "z", "worst |z|", "detects"
     )
 }
 
@@ -182,13 +182,13 @@ mod tests {
     }
 
     #[test]
-    fn what_differs_is_an_error_that_names_it() {
+    fn a_difference_is_an_error_that_names_the_row() {
         let differs = Verdict::Differs { from: vec!["the answer".into()] };
         assert!(line(&row(differs.clone()), 20).ends_with("!differs from the answer"));
         let report = Report { rows: vec![row(Verdict::Agrees), row(differs)], ..Report::default() };
         for json in [false, true] {
             let Err(Failure::Message(message)) = finish(&report, json) else {
-                panic!("it should have failed")
+                panic!("the check should have failed")
             };
             assert!(message.contains("furnace/thin nee"), "{message}");
         }

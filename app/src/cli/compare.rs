@@ -1,4 +1,4 @@
-//! `majorant compare`: which estimator wins on a scene, by how much, and is it true?
+//! `majorant compare`: ranking of estimators on a scene, with speed-ups and bias tests.
 
 mod plan;
 mod table;
@@ -11,24 +11,24 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Without --estimators the scene's own comparison is run, or every estimator if it has none. With it, the
-estimators are run in that order, each with random numbers of its own (seed, seed + 1, …); the first is
-the baseline. The same estimator may be named twice.
+Without --estimators the comparison in the scene file is run, or every estimator if there is none. With it, the
+estimators are run in that order, each with a different seed (seed, seed + 1, …); the first is the baseline.
+An estimator may be named twice.
 
---seconds are CPU seconds of path tracing per estimator, all threads together: on 8 cores, 4 estimators
-of 20 seconds each take about 10 seconds, and a reference as long as it takes. Nobody is billed for it.
+--seconds are CPU seconds of path tracing per estimator, summed over all threads: on 8 cores, 4 estimators
+of 20 seconds each take about 10 seconds. The time for a rendered reference is not charged.
 
-Without a reference every view is held against the mean of the other unbiased views. `agrees` and
-`biased` come from the pictures' own noise; a difference that chance makes once in 100 000 is called
-biased. That is a finding, not a failure: the exit code is 0.
+Without a reference every view is compared with the mean of the other unbiased views. `agrees` and `biased`
+follow from the noise of the images; a difference with a probability below 1 in 100 000 is called biased.
+A bias is a result, not a failure: the exit code is 0.
 
--o writes pictures and maps (.png), results (.exr, all of them in compare.exr), ranking.csv, curves.csv,
-compare.json and scene.toml; --html adds index.html, a page that needs no other file.
+-o writes images and maps (.png), results (.exr, all of them in compare.exr), ranking.csv, curves.csv,
+compare.json and scene.toml; --html adds index.html, a self-contained page.
 
 --json prints one line per estimator: estimator, label, spp, seconds (CPU), wall_seconds, lookups,
 lookups_per_path, relmse, variance, chroma_variance, efficiency (1/(variance·seconds)), speedup,
 speedup_ci [lo, hi], bias_z, p, verdict (agrees, biased, undecided), against, declared_bias, seed, mode,
-excluded. What is not finite is null.
+excluded. Non-finite values are null.
 
 Examples:
   majorant compare cloud-backlit --estimators spectral-mis,nee --seconds 20 -o report --html
@@ -37,7 +37,7 @@ Examples:
 pub(super) struct Arguments {
     /// A scene file, or the name of an embedded scene.
     scene: String,
-    /// Ids that `majorant estimators` lists, with commas between them.
+    /// Comma-separated ids, as listed by `majorant estimators`.
     #[arg(long, value_name = "IDS", value_delimiter = ',')]
     estimators: Vec<String>,
     /// CPU seconds of path tracing per estimator.
@@ -46,41 +46,41 @@ pub(super) struct Arguments {
     /// Samples per pixel per estimator.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
     spp: Option<u64>,
-    /// An EXR picture of the same scene that errors are measured against.
+    /// Reference image (EXR) of the same scene that errors are measured against.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["reference_estimator", "reference_spp"])]
     reference: Option<PathBuf>,
-    /// Renders the reference, beside the others, with this estimator.
+    /// Render the reference with this estimator, along with the views.
     #[arg(long, value_name = "ID", requires = "reference_spp")]
     reference_estimator: Option<String>,
     /// Samples per pixel of the rendered reference.
     #[arg(long, value_name = "N", requires = "reference_estimator",
           value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
     reference_spp: Option<u64>,
-    /// The estimator, or the view (A, B, …), that speed-ups are relative to.
+    /// Estimator or view (A, B, …) that speed-ups are relative to.
     #[arg(long, value_name = "ID")]
     baseline: Option<String>,
-    /// What every estimator gets as much of while it runs.
+    /// Quantity that all estimators receive equally during the run.
     #[arg(long, value_name = "WHAT", value_parser = PossibleValuesParser::new(["time", "samples", "lookups"]))]
     fair: Option<String>,
     /// Image size in pixels.
     #[arg(long, value_name = "WxH", value_parser = options::parse_size)]
     size: Option<[u32; 2]>,
-    /// Worker threads; by default one per core.
+    /// Number of worker threads; one per core by default.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// The first estimator's random numbers; the others follow.
+    /// Seed of the first estimator; the others get the following seeds.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
+    /// Set any key of the scene, as listed by `majorant keys`. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
-    /// The measure of error that curves and table show beside relMSE.
+    /// Error measure that curves and table show in addition to relMSE.
     #[arg(long, value_name = "ID", value_parser = PossibleValuesParser::new(MEASURES.iter().map(|m| m.id)))]
     measure: Option<String>,
-    /// The folder that the report goes into.
+    /// Folder of the report.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Add a page that shows it all, index.html.
+    /// Add an HTML page with all results, index.html.
     #[arg(long, requires = "output")]
     html: bool,
     /// Print one line of JSON per estimator instead of the table.

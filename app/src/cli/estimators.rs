@@ -1,4 +1,4 @@
-//! `majorant estimators`: ids and one line each.
+//! `majorant estimators`: ids and summaries of the estimators.
 
 use super::{Failure, print_line};
 use majorant_core::estimator::REGISTRY;

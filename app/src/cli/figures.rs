@@ -1,4 +1,4 @@
-//! `majorant figures`: the report, reproduced, with the study that it leaves to future work.
+//! `majorant figures`: reproduction of the report's figures, with the study that it leaves to future work.
 
 use super::{Failure, options, print_line, progress};
 use clap::builder::PossibleValuesParser;
@@ -10,31 +10,32 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Renders the figures of Horešovský's report with its settings, under volumes of our own, and answers what the
-report leaves open: every estimator at equal time on every figure's scene, several times over, with 95 %
-intervals, and a conclusion that is made from these numbers alone.
+Renders the figures of Horešovský's report with its settings and the embedded volumes, and runs the study that
+the report leaves open: every estimator at equal time on the scene of every figure, repeatedly, with 95 %
+intervals, and a conclusion that is derived from these numbers alone.
 
-All of it takes about eleven minutes on two cores: half of that are references, the rest is the
-study (scenes × variants × repeats × seconds). Stopping it with Ctrl-C keeps every figure that is finished.
+The full set takes about eleven minutes on two cores: half of it for references, the rest for the study
+(scenes × variants × repeats × seconds). Finished figures are kept when the command is stopped by Ctrl-C.
 
--o receives a PNG and an EXR of every panel and reference, figureN.png laid out as in the report, index.html
-(a page that needs no other file), figures.json with everything, and figures.csv, study.csv, answers.csv.
+-o receives a PNG and an EXR of every panel and reference, figureN.png in the layout of the report, index.html
+(a self-contained page), figures.json with all results, and figures.csv, study.csv, answers.csv.
 
---volume puts OpenVDB's smoke and bunny cloud, or any density of yours, where our plume (figures 1 and 2) or
-cloud (figure 3) stands: at the same place, as long, and as thick. `smoke=` and `bunny=` mean the same.
+--volume replaces the embedded plume (figures 1 and 2) or cloud (figure 3) by OpenVDB's smoke and bunny cloud,
+or by any density, with the same placement, length and optical thickness. `smoke=` and `bunny=` are synonyms
+of `plume=` and `cloud=`.
 
 Examples:
   majorant figures all -o report
   majorant figures 3 -o report --volume bunny=bunny_cloud.vdb --volume smoke=smoke.vdb
   majorant figures 2 4 -o report --size 512x512 --seconds 4 --repeats 8")]
 pub(super) struct Arguments {
-    /// Which of the report's figures; `all` for all of them.
+    /// Figures of the report to render, or `all`.
     #[arg(required = true, value_name = "FIGURE", value_parser = figure_names())]
     figures: Vec<String>,
-    /// The folder that everything goes into.
+    /// Output folder.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// A density that takes the place of ours: `plume=FILE` or `smoke=FILE`, `cloud=FILE` or `bunny=FILE`, or FILE for both. Repeatable.
+    /// Density that replaces an embedded one: `plume=FILE` or `smoke=FILE`, `cloud=FILE` or `bunny=FILE`, or FILE for both. Repeatable.
     #[arg(long, value_name = "FILE", value_parser = parse_volume)]
     volume: Vec<OwnVolume>,
     /// Samples per pixel of the panels.
@@ -45,16 +46,16 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1024,
           value_parser = clap::value_parser!(u64).range(LEAST_SAMPLES..))]
     reference_spp: u64,
-    /// Size of every picture in pixels; by default a fraction of each scene's own.
+    /// Size of every image in pixels; a fraction of the scene's size by default.
     #[arg(long, value_name = "WxH", value_parser = options::parse_size)]
     size: Option<[u32; 2]>,
-    /// Worker threads; by default one per core.
+    /// Number of worker threads; one per core by default.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Wall-clock seconds of each of the study's runs; 0 leaves the study out.
+    /// Wall-clock seconds of each run of the study; 0 skips the study.
     #[arg(long, value_name = "S", default_value = "1", value_parser = parse_seconds)]
     seconds: f64,
-    /// Runs of each variant in the study.
+    /// Number of runs per variant of the study.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..))]
     repeats: u32,
 }
@@ -68,7 +69,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     if seconds == 0.0 || (0.01..=1e6).contains(&seconds) {
         Ok(seconds)
     } else {
-        Err(format!("{text} seconds: 0, or between 0.01 and a million make sense"))
+        Err(format!("{text} seconds: choose 0, or a number from 0.01 to a million"))
     }
 }
 
@@ -79,9 +80,9 @@ fn parse_volume(text: &str) -> Result<OwnVolume, String> {
         _ => (None, text),
     };
     if file.is_empty() {
-        return Err("no file is named: write plume=FILE, cloud=FILE or FILE".into());
+        return Err("the file name is missing: write plume=FILE, cloud=FILE or FILE".into());
     }
-    // Scenes that are written down shall find it from anywhere.
+    // An absolute path, so that written scenes can be opened from any directory.
     let file = std::path::absolute(file).map_err(|e| e.to_string())?;
     Ok(OwnVolume { stage, file })
 }
@@ -129,7 +130,7 @@ fn print(results: &Results) -> Result<(), Failure> {
     results.conclusion().iter().try_for_each(|paragraph| print_line(&format!("\n{paragraph}")))
 }
 
-/// The study's ratios, a line per question.
+/// Prints the ratios of the study, one line per question.
 fn matrix(matrix: &Matrix) -> Result<(), Failure> {
     let line = |question: &str, by: &str, cells: &[&str]| {
         let cells: String = cells.iter().map(|cell| format!("  {cell:>19}")).collect();
@@ -152,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_volume_names_its_place_or_none() {
+    fn a_volume_argument_has_an_optional_stage() {
         let stage = |text: &str| parse_volume(text).map(|own| own.stage);
         assert_eq!(
             [stage("plume=a.vdb"), stage("smoke=a.vdb")],
@@ -170,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn no_seconds_mean_no_study() {
+    fn zero_seconds_skip_the_study() {
         assert_eq!([parse_seconds("0"), parse_seconds("2.5")], [Ok(0.0), Ok(2.5)]);
         assert!(parse_seconds("-1").is_err() && parse_seconds("soon").is_err());
     }

@@ -1,4 +1,4 @@
-//! `majorant info`: what is in a file.
+//! `majorant info`: description of a file.
 
 use super::{Failure, options, print_line};
 use majorant_core::io::volume::{self, FileInfo, GridInfo, ReadLimits, VoxelGrid};
@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 --json prints one line. For a volume: {\"grids\":[{\"name\",\"type\",\"class\",\"half\",\"map\",\"active_voxels\",
 \"min\",\"max\",\"mean\",\"bbox\":[x0,y0,z0,x1,y1,z1],\"background\"}…]}; the bounding box is in inclusive index
-coordinates, the mean is over active voxels, and a grid that is refused carries \"error\" instead. \"density\" names
-the grid that is rendered when none is named, \"notices\" says what reading the file chose or repaired. For an EXR:
+coordinates, the mean is over active voxels, and an unsupported grid has \"error\" instead. \"density\" is the name of
+the grid that is rendered by default, \"notices\" lists choices and repairs made when the file was read. For an EXR:
 width, height, display_window, data_window [x0,y0,x1,y1], channels, majorant, notices.")]
 pub(super) struct Arguments {
     /// A .vdb, .vol, .npy, .raw, .exr or .toml file.
@@ -33,13 +33,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         "exr" => exr(path, arguments.json),
         "toml" => scene(path, arguments.json),
         _ => Err(Failure::Message(format!(
-            "{}: info knows .vdb, .vol, .npy, .raw, .exr and .toml files",
+            "{}: info supports .vdb, .vol, .npy, .raw, .exr and .toml files",
             path.display()
         ))),
     }
 }
 
-/// A dense grid in the words of a sparse one: every voxel is active.
+/// Describes a dense grid like a sparse one whose voxels are all active.
 fn describe(grid: &VoxelGrid, kind: &str) -> GridInfo {
     let range = grid.min_max();
     GridInfo {
@@ -64,7 +64,7 @@ fn grids(file: &FileInfo, json: bool) -> Result<(), Failure> {
     }
     let grids = &file.grids;
     if grids.is_empty() {
-        return print_line("The file holds no grids.");
+        return print_line("The file contains no grids.");
     }
     for g in grids {
         let half = if g.half { ", half floats" } else { "" };
@@ -102,7 +102,7 @@ fn quoted(name: &str) -> String {
 fn exr(path: &Path, json: bool) -> Result<(), Failure> {
     let info = picture::exr_info(path)?;
     let mut notices = info.notices;
-    // A file without colour, as a depth map, has none that could be used.
+    // A file without colour, such as a depth map, has no texel notices.
     notices.extend(picture::texel_notices(path).unwrap_or_default());
     options::print_notes(&notices);
     let metadata: Option<serde_json::Value> =

@@ -1,4 +1,4 @@
-//! `majorant keys`: every key of a scene file.
+//! `majorant keys`: list of all keys of a scene file.
 
 use super::{Failure, print_line};
 use majorant_core::estimator::REGISTRY;
@@ -7,20 +7,20 @@ use majorant_core::scene::keys::{self, Key, Registry};
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Lists what a scene file may hold and what --set reaches; `*` stands for the number of a list's entry, as in
+Lists the keys of scene files and of --set; `*` stands for the index of a list entry, as in
 --set lights.0.scale=3. PREFIX limits the list: `majorant keys medium.majorant`.
 
 --json prints one array of objects: path, type, range, unit, default, label, tip, affects (scene, estimate, limits,
-view), biases; kind where only some kinds of the table have the key, values where it is a choice, open where ends of the
-range are excluded, absent with what the absence of an optional key means, required where it has to be there.")]
+view), biases; kind if only some kinds of the table have the key, values if it is a choice, open if ends of the range
+are excluded, absent with the meaning of the absence of an optional key, required if the key is mandatory.")]
 pub(super) struct Arguments {
-    /// What paths begin with.
+    /// Prefix of the listed keys.
     #[arg(default_value = "")]
     prefix: String,
     /// Print one array of JSON objects.
     #[arg(long, conflicts_with = "markdown")]
     json: bool,
-    /// Print a table in Markdown, without the keys of views beside the scene's own.
+    /// Print a Markdown table, without the keys of additional views.
     #[arg(long)]
     markdown: bool,
 }
@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     chosen.iter().try_for_each(|key| print_line(&line(key, width)))
 }
 
-/// Ids of the registries that the table does not know.
+/// Ids of the registries outside of the key table.
 fn ids(registry: Registry) -> Vec<&'static str> {
     match registry {
         Registry::Estimators => REGISTRY.iter().map(|entry| entry.id).collect(),
@@ -51,7 +51,7 @@ fn ids(registry: Registry) -> Vec<&'static str> {
     }
 }
 
-/// One key in one line.
+/// Formats a key as one line.
 fn line(key: &Key, width: usize) -> String {
     let default = match key.default {
         keys::Default::Is(text) => format!("default {text}"),

@@ -1,4 +1,4 @@
-//! `majorant [FILE]`: the window.
+//! `majorant [FILE]`: opens the window.
 
 use super::Failure;
 use crate::lab::{self, LabError, LabOptions};
@@ -7,24 +7,24 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 pub(super) struct LabArguments {
-    /// A scene or volume to open, or the name of an embedded scene.
+    /// Scene, volume or image to open, or the name of an embedded scene.
     file: Option<String>,
-    /// Write what the window shows to this PNG file, then exit.
+    /// Write a screenshot of the window to this PNG file, then exit.
     #[arg(long, value_name = "OUT.png")]
     screenshot: Option<PathBuf>,
-    /// How long to wait before the screenshot.
+    /// Delay of the screenshot after the start.
     #[arg(long, value_name = "SECONDS", default_value_t = 4.0)]
     after: f32,
-    /// Inner size of the window, in points.
+    /// Inner size of the window in points.
     #[arg(long, value_name = "WxH", value_parser = parse_window)]
     window: Option<[f32; 2]>,
-    /// A folder of lessons of your own (.md), beside the embedded ones.
+    /// Folder with further lessons (.md).
     #[arg(long, value_name = "DIR")]
     lessons: Option<PathBuf>,
-    /// Open this lesson; with a page, like 2-free-flight:3, there.
+    /// Open this lesson, optionally at a page: 2-free-flight:3.
     #[arg(long, value_name = "ID")]
     lesson: Option<String>,
-    /// Colours of the window.
+    /// Theme of the window.
     #[arg(long, value_enum)]
     theme: Option<Theme>,
 }

@@ -1,15 +1,15 @@
-//! The command line: one subcommand per file. What the window renders, `render` renders too.
+//! The command line, with one subcommand per file.
 
 mod bench;
 mod check;
 mod compare;
+mod contributions;
 mod estimators;
 mod figures;
 mod info;
 mod keys;
 mod lab;
 mod options;
-mod parts;
 mod path;
 mod progress;
 mod render;
@@ -20,32 +20,32 @@ use clap::{Parser, Subcommand};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-/// A volume-lighting lab: see, touch and measure Monte Carlo light transport in participating media.
+/// A lab for volume lighting: interactive Monte Carlo light transport in participating media.
 #[derive(Parser, Debug)]
 #[command(
     name = "majorant",
     version,
     args_conflicts_with_subcommands = true,
     after_help = "\
-Without a subcommand the lab opens, on FILE or on its embedded scene.
+Without a subcommand the window opens with FILE, or with an embedded scene.
 
 Examples:
-  majorant                                        open the lab
-  majorant cloud.vdb                              open it on your own volume
+  majorant                                        open the window
+  majorant cloud.vdb                              open a volume in the window
   majorant scenes                                 list the embedded scenes
   majorant render first-light -o out.exr --spp 64
-  majorant check                                  hold the estimators against known answers
+  majorant check                                  compare the estimators with known answers
   majorant compare cloud-backlit --seconds 20 -o report --html
-                                                  which estimator wins, and by how much
-  majorant bench first-light --seconds 4          how much certainty does a second buy?
-  majorant path plume-spectral --pixel 64,60      replay the brightest of a pixel's paths, with its books
-  majorant parts cloud-sidelit --by order -o parts
-                                                  what each scattering order adds to the image
-  majorant figures all -o report                  the report's figures, and the study that it calls for
+                                                  rank the estimators on a scene
+  majorant bench first-light --seconds 4          measure the efficiency of the estimators
+  majorant path plume-spectral --pixel 64,60      replay the brightest path of a pixel, with its path weights
+  majorant contributions cloud-sidelit --by order -o orders
+                                                  separate the image by scattering order
+  majorant figures all -o report                  reproduce the report's figures, and run its missing study
   majorant render scene.toml -o out.png --set medium.majorant.factor=2 --seconds 30
 
 Exit codes: 0 success, 1 a file, a render or a check failed, 2 wrong usage, 3 no display for the window,
-4 an error that was asked for is not defined: the picture is black, or has no finite value."
+4 the relative error that limits the render is undefined: the image is black, or has no finite value."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -58,36 +58,37 @@ struct Arguments {
 enum Command {
     /// Render a scene without a window.
     Render(render::Arguments),
-    /// Hold every estimator against answers that are known, or against each other on your own scene.
+    /// Compare every estimator with known answers, or the estimators with each other on your own scene.
     Check(check::Arguments),
-    /// Measure speed: equal time for every estimator, error against a reference, efficiency.
+    /// Measure the efficiency of estimators at equal time, by the error against a reference.
     Bench(bench::Arguments),
-    /// Rank estimators on a scene: cost, noise, error, speed-up, bias; as a table, files, a page.
+    /// Rank estimators on a scene by cost, noise, error, speed-up and bias; as a table, files or a page.
     Compare(compare::Arguments),
-    /// Reproduce the report: its figures, and every estimator at equal time with a conclusion.
+    /// Reproduce the figures of the report, and compare every estimator at equal time.
     Figures(figures::Arguments),
-    /// Replay one path of an image and print its books, event by event.
+    /// Replay one path of an image and print its path weights, event by event.
     Path(path::Arguments),
-    /// Take an image apart: by technique, scattering order, null collisions or hero.
-    Parts(parts::Arguments),
+    /// Separate an image into contributions: by technique, scattering order, null collisions or hero.
+    #[command(visible_alias = "parts")]
+    Contributions(contributions::Arguments),
     /// List the estimators.
     Estimators,
-    /// Describe a volume, picture or scene file.
+    /// Describe a volume, image or scene file.
     Info(info::Arguments),
     /// List the embedded scenes.
     Scenes,
-    /// List every key of a scene file: type, range, default, meaning, what it affects, when it biases.
+    /// List every key of a scene file: type, range, default, meaning, effects and bias.
     Keys(keys::Arguments),
 }
 
-/// What a command ends with.
+/// Failure of a command.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Something went wrong; the message names the cause and the cure.
+    /// A failure whose message contains the cause and the remedy.
     Message(String),
     /// There is no display to open a window on.
     NoDisplay(String),
-    /// The picture is there, and has no relative error.
+    /// The image was written, but has no relative error.
     NoError(&'static str),
 }
 
@@ -109,7 +110,7 @@ pub fn main() -> ExitCode {
         Some(Command::Compare(a)) => compare::run(&a),
         Some(Command::Figures(a)) => figures::run(&a),
         Some(Command::Path(a)) => path::run(&a),
-        Some(Command::Parts(a)) => parts::run(&a),
+        Some(Command::Contributions(a)) => contributions::run(&a),
         Some(Command::Estimators) => estimators::run(),
         Some(Command::Info(a)) => info::run(&a),
         Some(Command::Scenes) => scenes::run(),
@@ -121,12 +122,12 @@ pub fn main() -> ExitCode {
         Err(Failure::NoDisplay(message)) => (3, message),
         Err(Failure::NoError(message)) => (4, message.to_owned()),
     };
-    // A closed pipe is the only way for this to fail, and then nobody reads it.
+    // This fails only if the pipe is closed, and then the message cannot be read.
     let _ = writeln!(io::stderr(), "majorant: {message}");
     ExitCode::from(code)
 }
 
-/// Prints a line to standard output; a reader that has gone away is not an error.
+/// Prints a line to standard output; a closed pipe is not an error.
 pub(crate) fn print_line(text: &str) -> Result<(), Failure> {
     match writeln!(io::stdout(), "{text}") {
         Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -1,8 +1,8 @@
-//! What several commands read alike.
+//! Options shared by several commands.
 
 use majorant_core::scene::{Limits, RenderDoc};
 
-/// `640x480` as columns and rows.
+/// Parses columns and rows, as `640x480`.
 pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X', '×']);
     sides
@@ -10,13 +10,13 @@ pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
         .ok_or_else(|| format!("`{text}` is not a size: write WIDTHxHEIGHT, e.g. 256x256"))
 }
 
-/// Assignments to keys of the scene for options that were given.
+/// Converts the given options to assignments of scene keys.
 pub(super) fn assignments(set: &[String], options: &[(&str, Option<String>)]) -> Vec<String> {
     let given = options.iter().filter_map(|(key, value)| Some(format!("{key}={}", value.as_ref()?)));
     set.iter().cloned().chain(given).collect()
 }
 
-/// Gives a render these limits and no others, and names those of the scene that no longer hold.
+/// Replaces all limits of a render, with a note about limits of the scene that no longer apply.
 pub(super) fn replace_limits(render: &mut RenderDoc, given: Limits) {
     if let Some(note) = dropped(&render.limits(), &given) {
         print_notes(&[note]);
@@ -24,7 +24,7 @@ pub(super) fn replace_limits(render: &mut RenderDoc, given: Limits) {
     render.set_limits(given);
 }
 
-/// Limits of a scene that others do not replace, as a sentence.
+/// Describes the limits of a scene that are dropped without replacement.
 fn dropped(scene: &Limits, given: &Limits) -> Option<String> {
     let dropped: Vec<String> = [
         ("spp", scene.spp.map(|n| n.to_string()).filter(|_| given.spp.is_none())),
@@ -40,13 +40,13 @@ fn dropped(scene: &Limits, given: &Limits) -> Option<String> {
     .collect();
     (!dropped.is_empty()).then(|| {
         format!(
-            "the limits that were given replace those of the scene; {} no longer holds",
+            "the given limits replace those of the scene; {} no longer holds",
             dropped.join(", ")
         )
     })
 }
 
-/// Notes go to standard error; nobody reading them is not an error.
+/// Prints notes to standard error; a closed pipe is not an error.
 pub(super) fn print_notes(notes: &[String]) {
     use std::io::Write;
     for note in notes {
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn limits_that_no_longer_hold_are_named() {
+    fn dropped_limits_are_named() {
         let scene =
             Limits { spp: Some(64), seconds: None, cpu_seconds: Some(30.0), relative_error: Some(0.01) };
         let note = dropped(&scene, &Limits::samples(8)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! `majorant path`: one path of an image, event by event.
+//! `majorant path`: events of one path of an image.
 
 use super::{Failure, print_line, source};
 use majorant_core::estimator::PathIndex;
@@ -10,26 +10,25 @@ use std::fmt::Write;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-The path is traced again with the random numbers that it had: its estimate is the film's, bit by bit.
-Without --sample the brightest of the first --of samples is taken.
+The path is traced again with the same random numbers: its estimate equals that of the film bit by bit.
+Without --sample the brightest of the first --of samples is chosen.
 
-Each line is an event, with the random numbers that decided it (u) and, for the hero, what the path
-contributes (f) and how likely unidirectional sampling (p_uni) and next-event estimation (p_nee) make it,
-as they are defined. Where light is added: what is added at each component, and what the balance heuristic
-says that it should be.
+Each line is an event, with its random numbers (u) and, for the hero, the contribution (f) and the probability
+densities of unidirectional sampling (p_uni) and next-event estimation (p_nee) by their definition. Where a
+contribution is added: its value for each component, and the value by definition of the balance heuristic.
 
---json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components. Every
-number of a row, those that the estimator keeps itself (kept) included, is the one after the row's event.")]
+--json prints one line: pixel, sample, estimator, carried, film, sum, and rows of all components. All numbers of
+a row, including the path weights that the estimator stores (kept), are those after the event of the row.")]
 pub(super) struct Arguments {
     #[command(flatten)]
     traced: source::Traced,
-    /// Column and row, from the upper left.
+    /// Column and row of the pixel, from the upper left.
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pixel: (u32, u32),
-    /// Number of the sample within the pixel.
+    /// Index of the sample within the pixel.
     #[arg(long, value_name = "N")]
     sample: Option<u64>,
-    /// Samples among which the brightest is looked for.
+    /// Number of samples among which the brightest is searched.
     #[arg(long, value_name = "N", default_value_t = 64, conflicts_with = "sample")]
     of: u64,
     /// Print one line of JSON.
@@ -71,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         print_line(&line(i, row, ledger.carried.count()))?;
     }
     if !recording.complete {
-        print_line("  … and so on: a path this long is cut off here, its end is not")?;
+        print_line("  … truncated: the recording ends here, the path does not")?;
     }
     let film = ledger.film;
     print_line(&format!("on the film: {} {} {} (linear sRGB)", film.x, film.y, film.z))
@@ -94,7 +93,7 @@ fn carried(carried: &Carried) -> String {
             let names: Vec<_> = channels[..*n].iter().map(|c| names[*c as usize]).collect();
             format!("channels {}, the hero first", names.join(", "))
         }
-        Carried::Grey => "one weight for all, as nothing has a colour".to_owned(),
+        Carried::Grey => "one weight for all channels, as the scene is grey".to_owned(),
     }
 }
 

@@ -1,18 +1,18 @@
-//! A progress bar on a terminal, nothing in a pipe.
+//! Progress bar on a terminal, hidden if standard error is redirected.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use majorant_core::film::Snapshot;
 use majorant_core::io::Loading;
 use std::io::IsTerminal;
 
-/// Shows how far a render is, by samples or by seconds.
+/// Progress bar of a render, by samples or by seconds.
 pub(super) struct Progress {
     bar: ProgressBar,
     spp: Option<u64>,
     seconds: Option<f32>,
 }
 
-/// An empty bar of this length; hidden unless standard error is a terminal.
+/// Creates an empty bar of this length; hidden unless standard error is a terminal.
 pub(super) fn bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::new(length);
     bar.set_draw_target(if std::io::stderr().is_terminal() {
@@ -39,7 +39,7 @@ impl Progress {
         self.bar.set_message(format!("{} spp", snapshot.spp));
     }
 
-    /// A file is being read before anything is rendered.
+    /// Shows the progress of reading a file before rendering.
     pub fn read(&self, loading: &Loading) {
         self.bar.set_position((loading.fraction * 1000.0) as u64);
         self.bar.set_message(format!("reading {}", loading.file));

@@ -1,4 +1,4 @@
-//! `majorant render`: the same session as the window, without a window.
+//! `majorant render`: renders a scene without a window, by the same session.
 
 use super::progress::Progress;
 use super::{Failure, options, print_line, source};
@@ -13,52 +13,52 @@ use std::time::Duration;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Limits that are given (--spp, --seconds) replace those of the scene as a whole: render.spp, seconds, cpu_seconds and
-relative_error. Those that no longer hold are named on standard error.
---set reaches every key of the scene file: --set estimator.mode=rgb, --set lights.0.scale=3,
+The limits --spp and --seconds replace all limits of the scene: render.spp, seconds, cpu_seconds and relative_error.
+Limits that no longer apply are named on standard error.
+--set sets any key of the scene file: --set estimator.mode=rgb, --set lights.0.scale=3,
 --set 'medium.extinction=\"430:8, 540:40\"'.
 
 --json ends with one line: estimator, mode, width, height, spp, seconds, cpu_seconds, paths, lookups,
-mean [r,g,b], non_finite, threads, seed, density_grid (the name of the grid that was read), notices [what
-reading the files chose or repaired], ended_by: spp, seconds, cpu_seconds, relative_error, or black or not_finite where
-a picture of that kind has no relative error and no other limit.")]
+mean [r,g,b], non_finite, threads, seed, density_grid (the name of the grid that was read), notices [choices and
+repairs made when files were read], ended_by: spp, seconds, cpu_seconds, relative_error, or black or not_finite if the
+image has no relative error for that reason and there is no other limit.")]
 pub(super) struct Arguments {
     /// A scene file, or the name of an embedded scene.
     scene: String,
-    /// Where the result goes: .exr (linear, with standard errors) or .png (as shown). Repeatable.
+    /// Output file: .exr (linear, with standard errors) or .png (tone-mapped). Repeatable.
     #[arg(short, long, value_name = "FILE", required_unless_present = "json")]
     output: Vec<PathBuf>,
-    /// An id that `majorant estimators` lists.
+    /// Id of the estimator, as listed by `majorant estimators`.
     #[arg(long, value_name = "ID")]
     estimator: Option<String>,
     /// Samples per pixel.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     spp: Option<u64>,
-    /// Stop after this many seconds, at the end of a pass; every pixel gets at least one sample.
+    /// Stop after this many seconds, at the end of a pass; every pixel receives at least one sample.
     #[arg(long, value_name = "S")]
     seconds: Option<f32>,
     /// Image size in pixels.
     #[arg(long, value_name = "WxH", value_parser = options::parse_size)]
     size: Option<[u32; 2]>,
-    /// Selects the random numbers.
+    /// Seed of the random numbers.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Worker threads; by default one per core.
+    /// Number of worker threads; one per core by default.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Most path segments: 1 is emission only, 2 single scattering.
+    /// Maximum number of path segments: 1 is emission only, 2 is single scattering.
     #[arg(long, value_name = "N")]
     max_depth: Option<u32>,
-    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
+    /// Set any key of the scene, as listed by `majorant keys`. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
-    /// Print what was done as one line of JSON.
+    /// Print a summary as one line of JSON.
     #[arg(long)]
     json: bool,
 }
 
 impl Arguments {
-    /// The overrides of the other options, as assignments to keys of the scene.
+    /// Overrides by all options, as assignments of scene keys.
     fn assignments(&self) -> Vec<String> {
         options::assignments(
             &self.set,
@@ -85,7 +85,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
         options::replace_limits(&mut doc.render, given);
     }
     if doc.render.limits().are_none() {
-        return Err(Failure::Message("the render would never end: give --spp or --seconds".into()));
+        return Err(Failure::Message("the render has no limit: specify --spp or --seconds".into()));
     }
     if let Some(problem) = majorant_core::estimator::validate(&doc).first() {
         return Err(Failure::Message(problem.to_string()));
@@ -105,25 +105,25 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 type Writer = fn(&Path, &Snapshot, &SceneDoc) -> Result<(), export::ExportError>;
 
-/// How to write a file, by its ending; asked before anything is rendered.
+/// Writer of a file, by its extension; checked before rendering.
 fn writer(path: &Path) -> Result<Writer, Failure> {
     match path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase).as_deref() {
         Some("exr") => Ok(export::write_exr),
         Some("png") => Ok(|path, snapshot, doc| export::write_png(path, snapshot, &doc.view)),
-        _ => Err(Failure::Message(format!("{}: give the result an ending of .exr or .png", path.display()))),
+        _ => Err(Failure::Message(format!("{}: unknown extension; use .exr or .png", path.display()))),
     }
 }
 
-/// Between two looks at how far the reading of a file is.
+/// Interval between progress updates while a file is read.
 const READING: Duration = Duration::from_millis(50);
 
-/// The finished picture, and the state of its view at the end.
+/// Renders the scene; returns the finished image and the final state of its view.
 fn render(
     doc: Arc<SceneDoc>,
     library: majorant_core::io::Library,
 ) -> Result<(Arc<Snapshot>, ViewState), Failure> {
     let progress = Progress::new(doc.render.spp, doc.render.seconds);
-    // One waiting wake-up is enough: the state is read anew at each.
+    // One pending wake-up suffices, because the state is read after each.
     let (wake, woken) = mpsc::sync_channel::<()>(1);
     let session = Session::new(library, move || {
         let _ = wake.try_send(());
@@ -145,7 +145,7 @@ fn render(
                 options::print_notes(&state.notices);
                 return Ok((snapshot, state));
             }
-            // Reading a file wakes nobody.
+            // The session does not wake the caller while it reads a file.
             (Status::Building, _) => match woken.recv_timeout(READING) {
                 Ok(()) | Err(RecvTimeoutError::Timeout) => {}
                 Err(error @ RecvTimeoutError::Disconnected) => {

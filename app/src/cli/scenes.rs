@@ -1,4 +1,4 @@
-//! `majorant scenes`: names and notes of the embedded scenes.
+//! `majorant scenes`: names and summaries of the embedded scenes.
 
 use super::{Failure, print_line};
 use majorant_core::io::embedded::SCENES;

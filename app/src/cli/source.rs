@@ -1,4 +1,4 @@
-//! Where a SCENE argument comes from: a file, or an embedded name.
+//! Resolution of a SCENE argument: a file, or the name of an embedded scene.
 
 use super::{Failure, options};
 use majorant_core::estimator::{self, Entry, Settings};
@@ -14,20 +14,20 @@ pub(super) struct Source {
     pub resources: Library,
 }
 
-/// What commands about single paths are asked about.
+/// Arguments of commands that trace single paths.
 #[derive(clap::Args, Debug)]
 pub(super) struct Traced {
     /// A scene file, or the name of an embedded scene.
     scene: String,
-    /// An id that `majorant estimators` lists.
+    /// Id of the estimator, as listed by `majorant estimators`.
     #[arg(long, value_name = "ID")]
     estimator: Option<String>,
-    /// Sets any key of the scene; `majorant keys` lists them. Repeatable.
+    /// Set any key of the scene, as listed by `majorant keys`. Repeatable.
     #[arg(long, value_name = "KEY=VALUE", num_args = 1..)]
     set: Vec<String>,
 }
 
-/// A scene ready for paths, with what traces them.
+/// A built scene with its estimator and probe.
 pub(super) struct Frozen {
     pub doc: SceneDoc,
     pub entry: &'static Entry,
@@ -35,15 +35,15 @@ pub(super) struct Frozen {
 }
 
 impl Frozen {
-    /// What the film's first samples are traced with, as many as `samples` per pixel. Majorants that are raised by what the
-    /// film finds are raised here as well.
+    /// Creates the probe for the first `samples` samples per pixel of the film. Progressive majorants are raised as
+    /// by the film.
     pub fn probe(&self, samples: u64) -> Result<Probe, Failure> {
         Ok(probe_of_film(&self.probe, self.doc.render.threads, samples)?)
     }
 }
 
 impl Traced {
-    /// Loads the scene, sets keys of it and freezes it.
+    /// Loads the scene, applies the assignments and builds it.
     pub fn frozen(&self) -> Result<Frozen, Failure> {
         let mut source = load(&self.scene)?;
         let id = ("estimator.id", self.estimator.as_ref().map(|id| format!("{id:?}")));
@@ -60,7 +60,7 @@ impl Traced {
     }
 }
 
-/// Loads a scene by embedded name or path; an existing file comes first.
+/// Loads a scene by path or embedded name; an existing file takes precedence.
 pub(super) fn load(scene: &str) -> Result<Source, Failure> {
     let path = Path::new(scene);
     if path.exists() {
@@ -74,7 +74,7 @@ pub(super) fn load(scene: &str) -> Result<Source, Failure> {
     }
     let names: Vec<_> = embedded::SCENES.iter().map(|s| s.name).collect();
     Err(Failure::Message(format!(
-        "there is no file `{scene}`, and no embedded scene of that name; embedded are {}",
+        "there is no file `{scene}`, and no embedded scene of that name; the embedded scenes are {}",
         names.join(", ")
     )))
 }

@@ -1,7 +1,7 @@
-//! Which display server to open the window on.
+//! Selection of the display server.
 //!
-//! winit cannot try a second one in the same process, so a `WAYLAND_DISPLAY` that nobody listens on
-//! (as after `su`, or over ssh) has to be seen through before the event loop is built.
+//! winit cannot try a second server in the same process, so that a stale `WAYLAND_DISPLAY` (as after `su`, or
+//! over ssh) has to be detected before the event loop is built.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 pub(super) enum Backend {
     Wayland,
     X11,
-    /// The platform has only one.
+    /// The only display server of the platform.
     Native,
 }
 
-/// The display server that answers, if any.
+/// Returns a reachable display server, if any. On X11 a set `DISPLAY` suffices.
 pub(super) fn choose() -> Option<Backend> {
     if cfg!(not(target_os = "linux")) {
         return Some(Backend::Native);

@@ -1,4 +1,4 @@
-//! The two columns of panels.
+//! The two columns of panels at the sides of the window.
 
 use super::{Command, LabApp};
 use crate::panels::{Column, Cx, PANELS};
@@ -8,7 +8,7 @@ use egui::{Frame, Label, Margin, RichText, ScrollArea, Ui};
 use majorant_core::scene::SceneDoc;
 
 impl LabApp {
-    /// Shows a column's heading and its panels; edits go to the draft.
+    /// Shows the heading and the panels of a column; edits are made to `draft`.
     pub(super) fn column_ui(
         &self,
         ui: &mut Ui,

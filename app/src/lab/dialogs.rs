@@ -1,19 +1,19 @@
-//! Questions that the window asks: for a path, and about unsaved changes.
+//! Modal dialogs: path entry and unsaved changes.
 
 use super::{Answer, Command, Purpose};
 use crate::theme::{Palette, dialog_frame};
 use egui::{Button, Context, Id, Key, Modal, RichText, TextEdit, Ui, vec2};
 use std::path::PathBuf;
 
-/// The question that is open.
+/// The open dialog.
 pub(super) enum Dialog {
-    /// A file for something.
+    /// Entry of a path.
     Path(PathPrompt),
-    /// What to do about unsaved changes before this command.
+    /// Confirmation of unsaved changes before this command.
     Unsaved(Box<Command>),
 }
 
-/// Asks for a path. The desktop's dialog may be open beside it; whichever answers first wins.
+/// Path entry. The desktop's file dialog may be open as well; the first answer is used.
 pub(super) struct PathPrompt {
     pub purpose: Purpose,
     text: String,
@@ -43,24 +43,28 @@ impl PathPrompt {
 
     fn explanation(&self) -> &'static str {
         match self.purpose {
-            Purpose::OpenScene => "A scene file. Relative paths start where the program was started.",
-            Purpose::OpenVolume => "It becomes the medium's density, fitted to length 1 around the origin.",
-            Purpose::DensityFile => "It replaces the density; the placement stays.",
-            Purpose::TemperatureFile => "It is laid over the density, if both files say where they stand.",
-            Purpose::PhaseTable => "Text with an angle and a value on each line.",
-            Purpose::EnvironmentMap(_) => "An equirectangular picture, linear sRGB.",
-            Purpose::Reference => "An EXR of this scene; standard errors are used if it holds them.",
-            Purpose::ExportReport => {
-                "A folder: a page that shows it all (index.html), every picture and map, one EXR with layers, tables."
+            Purpose::OpenScene => {
+                "A scene file. Relative paths refer to the working directory of the program."
             }
-            Purpose::SaveScene => "An existing file is replaced.",
-            Purpose::ExportExr => "Linear radiance, standard error, and the scene, as OpenEXR.",
-            Purpose::ExportPng => "The picture as it is shown: exposure, tone curve and gamma applied.",
+            Purpose::OpenVolume => "The density of the medium, scaled to length 1 and centred on the origin.",
+            Purpose::DensityFile => "Replaces the density; the placement is kept.",
+            Purpose::TemperatureFile => "Aligned with the density if both files contain a transform.",
+            Purpose::PhaseTable => "A text file with an angle and a value on each line.",
+            Purpose::EnvironmentMap(_) => "An equirectangular image, linear sRGB.",
+            Purpose::Reference => {
+                "An EXR image of this scene; its standard errors are used if it contains any."
+            }
+            Purpose::ExportReport => {
+                "A folder for an HTML page (index.html), all images and maps, one EXR with layers, and tables."
+            }
+            Purpose::SaveScene => "An existing file is overwritten.",
+            Purpose::ExportExr => "Linear radiance, standard error and the scene file, as OpenEXR.",
+            Purpose::ExportPng => "The displayed image, with exposure, tone curve and gamma.",
         }
     }
 }
 
-/// Shows the open question, if there is one.
+/// Shows the open dialog, if any.
 pub(super) fn dialog_ui(ctx: &Context, dialog: &mut Option<Dialog>, name: &str, commands: &mut Vec<Command>) {
     let Some(open) = dialog else { return };
     let response =
@@ -99,7 +103,7 @@ fn path_ui(ui: &mut Ui, prompt: &mut PathPrompt, commands: &mut Vec<Command>) {
     });
 }
 
-/// People type `~` where a shell would have replaced it.
+/// Expands a leading `~/`, which a shell would have replaced.
 fn expanded(typed: &str) -> PathBuf {
     match (typed.strip_prefix("~/"), std::env::home_dir()) {
         (Some(rest), Some(home)) => home.join(rest),
@@ -109,7 +113,7 @@ fn expanded(typed: &str) -> PathBuf {
 
 fn unsaved_ui(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
     ui.heading(format!("Save the changes to {name}?"));
-    ui.label(RichText::new("They are lost otherwise.").color(Palette::get(ui).weak));
+    ui.label(RichText::new("Unsaved changes will be lost.").color(Palette::get(ui).weak));
     buttons(ui, |ui| {
         if ui.add(primary(ui, "Save")).clicked() {
             commands.push(Command::Answer(Answer::Save));

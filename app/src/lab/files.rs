@@ -1,4 +1,4 @@
-//! The commands that touch files: opening, saving, exporting, and what a dropped file becomes.
+//! File commands: opening, saving, exporting and dropped files.
 
 use super::dialogs::{Dialog, PathPrompt};
 use super::{Command, LabApp, Purpose, Severity};
@@ -12,7 +12,7 @@ use majorant_core::io::volume::EXTENSIONS;
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, PhaseDoc, ReferenceDoc};
 use std::path::{Path, PathBuf};
 
-/// What a file is, by its extension.
+/// Kind of a file, by its extension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FileKind {
     Scene,
@@ -22,7 +22,7 @@ pub(super) enum FileKind {
 }
 
 impl FileKind {
-    /// Told apart by the extension alone, as while a file hovers over the window.
+    /// Determines the kind by the extension alone, as for a file that hovers over the window.
     pub fn of(path: &Path) -> Self {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         match extension.as_deref() {
@@ -35,7 +35,7 @@ impl FileKind {
 }
 
 impl LabApp {
-    /// Takes a file for what its extension says.
+    /// Opens a file according to its extension.
     pub(super) fn open_any(&mut self, path: PathBuf) {
         match FileKind::of(&path) {
             FileKind::Scene => self.apply(Command::Open(Source::File(path))),
@@ -43,13 +43,13 @@ impl LabApp {
             FileKind::Panorama if self.is_render(&path) => self.hold_against(&path),
             FileKind::Panorama => self.light_with(&path),
             FileKind::Unknown => self.messages.fail(format!(
-                "{}: not a kind of file that Majorant reads. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
+                "{}: unsupported file type. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
                 path.display()
             )),
         }
     }
 
-    /// Asks for a file: a typed path always works, the desktop's dialog where there is one.
+    /// Opens the path entry for a file, and the desktop's file dialog where it exists.
     pub(super) fn ask(&mut self, purpose: Purpose) {
         let suggestion = self.suggestion(purpose);
         self.dialog = Some(Dialog::Path(PathPrompt::new(purpose, suggestion)));
@@ -59,12 +59,12 @@ impl LabApp {
         }
     }
 
-    /// The path that a prompt starts with.
+    /// Initial path of a path entry.
     fn suggestion(&self, purpose: Purpose) -> String {
         let stem = match self.document.path() {
             Some(path) => path.with_extension(""),
             None => {
-                // What no file system minds.
+                // Characters that are valid on every file system.
                 let plain = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
                 let name: String = self.doc().title.chars().map(plain).collect();
                 let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
@@ -81,7 +81,7 @@ impl LabApp {
         }
     }
 
-    /// A file was chosen for something.
+    /// Uses a chosen file for its purpose.
     pub(super) fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
         match purpose {
             Purpose::OpenScene => self.apply(Command::Open(Source::File(path))),
@@ -126,12 +126,12 @@ impl LabApp {
         }
     }
 
-    /// A file's name as the document stores it: relative to the scene if it lies below it.
+    /// File name as stored in the document: relative to the scene if the file is below the scene's directory.
     fn short_name(&self, path: &Path) -> String {
         path.strip_prefix(self.document.base()).unwrap_or(path).to_string_lossy().into_owned()
     }
 
-    /// A volume that can be read becomes the medium's density.
+    /// Makes a readable volume the density of the medium.
     pub(super) fn fill_with(&mut self, path: &Path, look: &Look) {
         let doc = with_volume(self.doc(), self.short_name(path), look);
         let scale = doc.medium.scale;
@@ -140,14 +140,14 @@ impl LabApp {
         self.messages.say(
             Severity::Done,
             format!(
-                "{name} fills the medium: fitted to length 1, density scaled by {}.",
+                "{name} is the density of the medium, fitted to length 1 and scaled by {}.",
                 format_number(scale.into())
             ),
         );
     }
 
-    /// Whether a picture is a render that errors can be measured against: it says so itself, or has the size of
-    /// the film. Anything else lights the scene.
+    /// Whether an image is a render that can serve as the reference: it has the metadata of one, or the size
+    /// of the film. Other images are used as environment maps.
     fn is_render(&self, path: &Path) -> bool {
         let film = &self.doc().film;
         picture::exr_info(path).is_ok_and(|info| {
@@ -156,7 +156,7 @@ impl LabApp {
         })
     }
 
-    /// A picture becomes what errors are measured against.
+    /// Makes an image the reference.
     fn hold_against(&mut self, path: &Path) {
         let file = self.short_name(path);
         let reference = ReferenceDoc::File { file };
@@ -168,15 +168,15 @@ impl LabApp {
             .find(|view| seed.is_some() && self.doc().contender(*view).map(|c| c.seed) == seed);
         if let Some(view) = sharing {
             self.messages.fail(format!(
-                "{} was rendered with the random numbers of view {}: what they share looks like agreement. Give \
-                 the view another seed (Render, Limits, threads, seed).",
+                "{} was rendered with the seed of view {}: their correlated noise looks like agreement. Choose \
+                 another seed for the view (Render, Limits, threads, seed).",
                 path.display(),
                 compare::label(view)
             ));
         }
     }
 
-    /// A panorama becomes the environment map, in place of the one that is there.
+    /// Makes a panorama the environment map, replacing an existing one.
     fn light_with(&mut self, path: &Path) {
         let name = self.short_name(path);
         let mut doc = self.doc().clone();
@@ -196,7 +196,7 @@ impl LabApp {
         self.document.edit(doc);
     }
 
-    /// Saves to the scene's own file, or asks for one.
+    /// Saves to the scene's file, or opens the path entry if it has none.
     pub(super) fn save_scene(&mut self) {
         match self.document.path().map(Path::to_owned) {
             Some(path) => self.save_to(&path),
@@ -222,13 +222,13 @@ impl LabApp {
     }
 
     fn export(&mut self, png: bool, path: PathBuf) {
-        // Picture and document of the selected view belong together, whatever hangs and was edited since.
+        // Image and document of the selected view have to match, independent of later edits.
         let found = self.wall.selected_slot().and_then(|slot| {
             let snapshot = slot.picture().filter(|s| s.spp > 0 && s.coarse.is_none())?;
             Some((snapshot.clone(), (*slot.rendered).clone()))
         });
         let Some((snapshot, doc)) = found else {
-            self.messages.fail("There is no picture to export yet. Wait for the first sample per pixel.");
+            self.messages.fail("There is no image to export yet. Wait for the first sample per pixel.");
             return;
         };
         self.attempt(|app| app.tasks.export(png, path, snapshot, doc));
@@ -236,7 +236,7 @@ impl LabApp {
 
     fn export_report(&mut self, folder: PathBuf) {
         let mut experiment = self.wall.experiment();
-        // The scene is written beside the report: its files must be found from there.
+        // The scene is written into the report's folder, so that its file names have to be absolute.
         experiment.doc = std::sync::Arc::new(self.document.resolved());
         self.messages.say(Severity::Done, format!("Writing the comparison to {}.", folder.display()));
         self.attempt(|app| app.tasks.report(folder, experiment));

@@ -1,11 +1,11 @@
-//! The list of shortcuts and gestures.
+//! Dialog with the shortcuts and gestures.
 
 use super::Command;
 use super::shortcuts::{GESTURES, KEYS, name};
 use crate::theme::{Palette, dialog_frame};
 use egui::{Context, Grid, Id, Modal, RichText, Ui};
 
-/// Shows the list over the window.
+/// Shows the dialog over the window.
 pub(super) fn help_ui(ctx: &Context, commands: &mut Vec<Command>) {
     let frame = dialog_frame(&ctx.global_style());
     let response = Modal::new(Id::unique("shortcuts")).frame(frame).show(ctx, |ui| {
@@ -17,7 +17,7 @@ pub(super) fn help_ui(ctx: &Context, commands: &mut Vec<Command>) {
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = 36.0;
             ui.vertical(|ui| column(ui, "Scene", files));
-            ui.vertical(|ui| column(ui, "Render and picture", picture));
+            ui.vertical(|ui| column(ui, "Render and image", picture));
             ui.vertical(|ui| column(ui, "Mouse", &gestures));
         });
         ui.add_space(12.0);

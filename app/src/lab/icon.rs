@@ -1,10 +1,10 @@
-//! The window's icon, drawn: a density below its dashed majorant.
+//! Icon of the window: a density curve below a dashed majorant.
 
 use egui::IconData;
 
 const SIDE: usize = 64;
 
-/// Draws it.
+/// Rasterises the icon.
 pub(super) fn icon() -> IconData {
     let mut rgba = Vec::with_capacity(4 * SIDE * SIDE);
     for y in 0..SIDE {
@@ -16,7 +16,7 @@ pub(super) fn icon() -> IconData {
 }
 
 fn pixel(x: f32, y: f32) -> [u8; 4] {
-    // A rounded square; the distance to its edge smooths it.
+    // A rounded square, antialiased by the distance to its edge.
     let corner = |t: f32| (t - 32.0).abs() - 20.0;
     let (dx, dy) = (corner(x).max(0.0), corner(y).max(0.0));
     let inside = (11.5 - dx.hypot(dy)).clamp(0.0, 1.0);

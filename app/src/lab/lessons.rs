@@ -1,4 +1,4 @@
-//! Lessons as they drive the lab.
+//! Control of the lab by lessons.
 
 use super::LabApp;
 use crate::lessons::{Lesson, Player, RaySet, embedded, in_folder};
@@ -10,13 +10,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 impl LabApp {
-    /// The open lesson.
+    /// Player of the open lesson, if any.
     #[must_use]
     pub fn lesson(&self) -> Option<&Player> {
         self.lesson.as_ref()
     }
 
-    /// Opens a lesson where it was left, or at its beginning if it was finished.
+    /// Opens a lesson at the last step reached, or at its beginning if it was finished.
     pub(super) fn open_lesson(&mut self, id: &str) {
         let Some(lesson) = self.find_lesson(id) else { return };
         let reached = self.settings.lessons.get(&lesson.id).copied().unwrap_or(0);
@@ -27,19 +27,20 @@ impl LabApp {
         self.show_step();
     }
 
-    /// The lesson with this id, the user's own before an embedded one; without one the window says which there are.
+    /// Finds a lesson by id, user lessons before embedded ones; an unknown id adds an error with the known
+    /// ids.
     fn find_lesson(&mut self, id: &str) -> Option<Arc<Lesson>> {
         let known = || self.own_lessons.iter().chain(embedded());
         let lesson = known().find(|lesson| lesson.id == id).cloned();
         if lesson.is_none() {
             let ids: Vec<_> = known().map(|lesson| lesson.id.as_str()).collect();
-            let message = format!("there is no lesson `{id}`: there are {}", ids.join(", "));
+            let message = format!("there is no lesson `{id}`; the lessons are {}", ids.join(", "));
             self.messages.fail(message);
         }
         lesson
     }
 
-    /// Opens the lesson with this id, at a page if one follows a colon.
+    /// Opens the lesson with this id, optionally at a page: `id:page`.
     pub(super) fn open_named_lesson(&mut self, named: &str) {
         let (id, page) = match named.rsplit_once(':') {
             Some((id, page)) => (id, page.parse::<usize>().ok()),
@@ -53,7 +54,7 @@ impl LabApp {
         self.submit_if_needed();
     }
 
-    /// Goes so many steps on, or back; past the last step the lesson is finished.
+    /// Moves forward or back by a number of steps; beyond the last step the lesson is finished.
     pub(super) fn turn_lesson(&mut self, by: isize) {
         let Some(player) = &mut self.lesson else { return };
         let Some(step) = player.step.checked_add_signed(by) else { return };
@@ -68,7 +69,7 @@ impl LabApp {
         }
     }
 
-    /// Takes a prediction down.
+    /// Stores the answer to the prediction of the current step.
     pub(super) fn answer_lesson(&mut self, choice: usize) {
         if let Some(player) = &mut self.lesson
             && let Some(answer) = player.answers.get_mut(player.step)
@@ -77,7 +78,7 @@ impl LabApp {
         }
     }
 
-    /// The lessons of a folder join the embedded ones.
+    /// Adds the lessons of a folder.
     pub(super) fn add_lessons(&mut self, folder: &Path) {
         let (lessons, errors) = in_folder(folder);
         self.own_lessons.extend(lessons);
@@ -91,7 +92,7 @@ impl LabApp {
             return;
         };
         if *self.document.doc() != scene {
-            // Nothing of a lesson is an unsaved change.
+            // The scene of a lesson does not count as an unsaved change.
             self.document = Document::new(scene);
         }
         self.wall.select(0);

@@ -1,4 +1,4 @@
-//! What is shown over the pictures while a file is read.
+//! Progress bar over the views while a file is read.
 
 use super::LabApp;
 use crate::theme::Palette;
@@ -6,14 +6,14 @@ use egui::{Align2, Area, Context, Frame, Id, Margin, Order, ProgressBar, Rect, R
 use majorant_core::session::Status;
 use std::time::{Duration, Instant};
 
-/// Reading that ends sooner is not worth a flash of a bar.
+/// Delay before the bar is shown, so that short reads do not make it flicker.
 const PATIENCE: Duration = Duration::from_millis(150);
-/// Between two looks at how far it is.
+/// Interval between progress updates.
 const LOOK_AGAIN: Duration = Duration::from_millis(40);
 const WIDTH: f32 = 280.0;
 
 impl LabApp {
-    /// A bar with the file's name, once it has taken a while.
+    /// Shows a bar with the name of the file after a delay.
     pub(super) fn loading_ui(&mut self, ctx: &Context, pictures: Rect) {
         if self.state.status != Status::Building {
             self.building_since = None;

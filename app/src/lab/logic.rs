@@ -1,4 +1,4 @@
-//! What happens between frames: reads the session and finished tasks, carries out commands.
+//! Work between frames: reads the session and the results of tasks, and executes commands.
 
 use super::dialogs::Dialog;
 use super::tasks::Outcome;
@@ -17,16 +17,16 @@ use majorant_core::session::ViewId;
 use std::path::Path;
 use std::time::Duration;
 
-/// An edit becomes an undo step when nothing changed for this long.
+/// Time without changes after which an edit becomes an undo step.
 const SETTLED_SECONDS: f64 = 0.25;
 
 impl LabApp {
-    /// Whether numbers are shown below the pictures that there are.
+    /// Setting that shows the dock below the present number of views.
     pub(super) fn dock_shown(&mut self) -> &mut bool {
         if self.doc().view_count() > 1 { &mut self.settings.dock } else { &mut self.settings.dock_alone }
     }
 
-    /// Whether the method column is shown. In a narrow window a lesson opens without it.
+    /// Whether the method column is shown. A lesson hides it in a narrow window.
     pub(super) fn method_shown(&self) -> bool {
         match &self.lesson {
             Some(player) if self.narrow => player.with_method,
@@ -34,7 +34,7 @@ impl LabApp {
         }
     }
 
-    /// Takes note of everything that happened since the last frame.
+    /// Processes all events since the last frame.
     pub(super) fn update(&mut self, ctx: &Context) {
         let prints = self.tone_mapper.take();
         self.wall.update(ctx, &self.session, prints);
@@ -58,7 +58,7 @@ impl LabApp {
         self.keep_history(ctx);
         self.guard_window(ctx);
         self.submit_if_needed();
-        // What was just submitted has no numbers yet.
+        // The state of a view that was just submitted has changed.
         self.read_selected();
         if let Some(screenshot) = &mut self.screenshot
             && let Some(problem) = screenshot.update(ctx)
@@ -67,7 +67,7 @@ impl LabApp {
         }
     }
 
-    /// Takes over what is known of the selected view.
+    /// Copies state and statistics of the selected view.
     fn read_selected(&mut self) {
         if let Some(slot) = self.wall.selected_slot() {
             self.state = slot.state.clone();
@@ -85,7 +85,7 @@ impl LabApp {
             }
             Outcome::Listed(file, Ok(names)) => self.grids.finish(file, names),
             Outcome::Listed(file, Err(_)) => {
-                // The session says what is wrong with the file; here it has no names to offer.
+                // The session reports the error of the file; the list of grids stays empty.
                 self.grids.finish(file, Vec::new());
             }
             Outcome::Volume(path, Ok(look)) => self.fill_with(&path, &look),
@@ -110,19 +110,19 @@ impl LabApp {
         }
     }
 
-    /// Makes undo steps of settled states: a drag or a typed number is one step.
+    /// Records settled states as undo steps: a drag or a typed number is one step.
     fn keep_history(&mut self, ctx: &Context) {
         let typing = ctx.text_edit_focused();
         let (now, down, pressed) = ctx.input(|i| (i.time, i.pointer.any_down(), i.pointer.any_pressed()));
         let rested = now - self.edited_at >= SETTLED_SECONDS;
-        // A new gesture ends the edit before it, however short the pause was.
+        // A new gesture ends the previous edit, even after a short pause.
         let settled = pressed || (!down && !typing && rested);
         if self.document.observe(settled) && !down {
             ctx.request_repaint_after(Duration::from_secs_f64(SETTLED_SECONDS));
         }
     }
 
-    /// Closing the window asks about unsaved changes first.
+    /// Asks about unsaved changes before the window closes, and keeps its title up to date.
     fn guard_window(&mut self, ctx: &Context) {
         let asked = ctx.input(|i| i.viewport().close_requested());
         if asked && !self.quitting && self.screenshot.is_none() && self.is_modified() {
@@ -133,20 +133,20 @@ impl LabApp {
         }
         let mark = if self.is_modified() { "• " } else { "" };
         let title = format!("{mark}{} – Majorant", self.name());
-        // Not every platform tells the title, and every command asks for another frame.
+        // Not every platform reports the title, and every viewport command requests another frame.
         if self.window_title != title {
             self.window_title.clone_from(&title);
             ctx.send_viewport_cmd(ViewportCommand::Title(title));
         }
     }
 
-    /// The scene's name: its file's, or its title.
+    /// Name of the scene: its file name, or its title.
     pub(super) fn name(&self) -> String {
         let file = self.document.path().and_then(Path::file_name);
         file.map_or_else(|| self.doc().title.clone(), |name| name.to_string_lossy().into_owned())
     }
 
-    /// Carries out a command.
+    /// Executes a command.
     pub(super) fn apply(&mut self, command: Command) {
         match command {
             Command::Edit(doc) => self.document.edit(*doc),
@@ -230,7 +230,7 @@ impl LabApp {
             Command::ToggleLargeType => {
                 let large = !self.settings.large_type;
                 self.settings.large_type = large;
-                // On a projector the pictures matter; the columns are a key away.
+                // On a projector the views need the room of the columns.
                 (self.settings.scene_column, self.settings.method_column) = (!large, !large);
             }
             Command::ToggleSceneColumn => self.settings.scene_column ^= true,
@@ -264,7 +264,7 @@ impl LabApp {
         }
     }
 
-    /// Does what would lose unsaved changes, or asks first.
+    /// Executes a command that discards unsaved changes, after confirmation if there are any.
     fn guarded(&mut self, command: Command) {
         if self.is_modified() {
             self.dialog = Some(Dialog::Unsaved(Box::new(command)));
@@ -273,7 +273,7 @@ impl LabApp {
         }
     }
 
-    /// Does it.
+    /// Executes a command that discards unsaved changes.
     pub(super) fn proceed(&mut self, command: Command) {
         match command {
             Command::Open(source) => self.open(&source),
@@ -290,14 +290,14 @@ impl LabApp {
             Answer::Cancel => {}
             Answer::Discard => self.proceed(*then),
             Answer::Save => {
-                // A scene without a file asks for one first.
+                // A scene without a file needs a path first.
                 self.after_save = Some(*then);
                 self.save_scene();
             }
         }
     }
 
-    /// Larger type is the interface's own zoom, which Ctrl + plus and minus change further.
+    /// Applies the text size as zoom factor of the interface, which Ctrl + plus and minus change as well.
     pub(super) fn apply_type_size(&mut self, ctx: &Context) {
         let wanted = self.settings.zoom_factor();
         if self.applied_zoom_factor != wanted {
@@ -306,7 +306,7 @@ impl LabApp {
         }
     }
 
-    /// Shows the next view, or has the wall show one at a time.
+    /// Shows the next view, or switches to the arrangement with one view at a time.
     fn flip(&mut self) {
         if WindowDoc::of(self.doc()).arrangement == Arrangement::Flip {
             let pictures_shown = self.wall.pictures_shown();
@@ -325,7 +325,7 @@ impl LabApp {
         }
     }
 
-    /// Gives the session what changed, found by comparing documents.
+    /// Submits to the session what changed, as determined by comparing documents.
     pub(super) fn submit_if_needed(&mut self) {
         let (doc, base) = (self.document.doc(), self.document.base());
         let wanted = self.wall.submit(doc, base, |doc| resolved(doc, base), &self.session);
@@ -355,7 +355,7 @@ impl LabApp {
         self.grids.clear();
     }
 
-    /// Opens a scene; what was open stays if that fails.
+    /// Opens a scene; the open one is kept if this fails.
     pub(super) fn open(&mut self, source: &Source) {
         match Document::open(source) {
             Ok(document) => {

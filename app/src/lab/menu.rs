@@ -74,8 +74,8 @@ impl LabApp {
     }
 
     fn view_ui(&self, ui: &mut Ui, commands: &mut Commands) {
-        item(ui, "Fit picture", Command::Fit, commands);
-        item(ui, "Picture at 100 %", Command::Zoom(1.0), commands);
+        item(ui, "Fit image", Command::Fit, commands);
+        item(ui, "Image at 100 %", Command::Zoom(1.0), commands);
         ui.separator();
         item(ui, "Half a stop brighter", Command::Expose(0.5), commands);
         item(ui, "Half a stop darker", Command::Expose(-0.5), commands);
@@ -97,7 +97,7 @@ impl LabApp {
         let mut cells = self.settings.majorant_slice.is_some();
         if ui
             .checkbox(&mut cells, "Majorant cells")
-            .on_hover_text("How tight the local majorants are  (M)")
+            .on_hover_text("Shows the tightness of the local majorants  (M)")
             .clicked()
         {
             commands.push(Command::ToggleMajorants);
@@ -115,7 +115,7 @@ impl LabApp {
         }
         ui.separator();
         let mut large = self.settings.large_type;
-        if ui.checkbox(&mut large, "Large type, for projectors").clicked() {
+        if ui.checkbox(&mut large, "Large text, for projectors").clicked() {
             commands.push(Command::ToggleLargeType);
         }
         ui.separator();
@@ -131,7 +131,7 @@ impl LabApp {
         }
     }
 
-    /// Every lesson, with a mark on those that were finished.
+    /// Lists every lesson, with a mark on finished and started ones.
     fn lessons_ui(&self, ui: &mut Ui, commands: &mut Commands) {
         for lesson in lessons::embedded().iter().chain(&self.own_lessons) {
             let reached = self.settings.lessons.get(&lesson.id).copied().unwrap_or(0);
@@ -169,7 +169,7 @@ impl LabApp {
         item_if(ui, several, "Flip", Command::Flip, commands);
         ui.separator();
         let mut own = WindowDoc::of(self.doc()).own_zoom;
-        if ui.checkbox(&mut own, "Every view has its own zoom").clicked() {
+        if ui.checkbox(&mut own, "Separate zoom for each view").clicked() {
             commands.push(Command::Wall(WallEdit::OwnZoom(own)));
         }
         item(ui, "Numbers", Command::ToggleDock, commands);
@@ -177,7 +177,7 @@ impl LabApp {
         item(ui, "Load reference…", Command::Ask(Purpose::Reference), commands);
     }
 
-    /// The scene's name at the right end of the bar, with the mark of unsaved changes.
+    /// Shows the scene's name at the right end of the bar, with a mark if there are unsaved changes.
     fn title_ui(&self, ui: &mut Ui) {
         let palette = Palette::get(ui);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -1,33 +1,33 @@
-//! What the window has to say: lines above the status bar. Errors stay until they are dismissed.
+//! Messages above the status bar. Errors are shown until they are dismissed.
 
 use super::Command;
 use crate::theme::Palette;
 use egui::{Align, Button, Frame, Label, Layout, Margin, RichText, Ui};
 use std::time::{Duration, Instant};
 
-/// How bad it is.
+/// Severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// It worked.
+    /// Confirmation of success.
     Done,
-    /// It failed.
+    /// Failure.
     Error,
 }
 
-/// One line.
+/// A message, shown as one line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// Counts up; names it for [`Command::Dismiss`].
+    /// Consecutive number, which identifies the message in [`Command::Dismiss`].
     pub number: u64,
-    /// How bad it is.
+    /// Severity of the message.
     pub severity: Severity,
-    /// What happened, with the file's name and the cure.
+    /// Description of the event, with the file's name and the remedy.
     pub text: String,
-    /// When it was said.
+    /// Time at which the message was added.
     at: Instant,
 }
 
-/// The lines that are shown, oldest first.
+/// Displayed messages, oldest first.
 #[derive(Clone, Debug, Default)]
 pub struct Messages {
     lines: Vec<Message>,
@@ -35,12 +35,12 @@ pub struct Messages {
 }
 
 impl Messages {
-    /// No more than this many are kept.
+    /// Maximum number of messages.
     const CAPACITY: usize = 4;
-    /// How long a confirmation stays.
+    /// Display time of a confirmation.
     const CONFIRMED: Duration = Duration::from_secs(6);
 
-    /// Adds a line; the same text is not repeated.
+    /// Adds a message, which replaces one with the same text and all confirmations.
     pub fn say(&mut self, severity: Severity, text: impl Into<String>) {
         let text = text.into();
         self.lines.retain(|line| line.text != text && line.severity != Severity::Done);
@@ -51,8 +51,8 @@ impl Messages {
         }
     }
 
-    /// Removes confirmations that have been read by now; returns how long the next one has left.
-    /// Errors stay until they are dismissed.
+    /// Removes confirmations whose display time has passed; returns the remaining time of the next one.
+    /// Errors are kept until they are dismissed.
     pub fn expire(&mut self) -> Option<Duration> {
         let left = |line: &Message| match line.severity {
             Severity::Done => Some(Self::CONFIRMED.saturating_sub(line.at.elapsed())),
@@ -67,19 +67,19 @@ impl Messages {
         self.say(Severity::Error, text);
     }
 
-    /// Removes a line.
+    /// Removes a message by its number.
     pub fn dismiss(&mut self, number: u64) {
         self.lines.retain(|line| line.number != number);
     }
 
-    /// The lines.
+    /// Displayed messages, oldest first.
     #[must_use]
     pub fn lines(&self) -> &[Message] {
         &self.lines
     }
 }
 
-/// Shows one line with its dismiss button.
+/// Shows a message with its dismiss button.
 pub(super) fn line_ui(ui: &mut Ui, line: &Message, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     let colour = if line.severity == Severity::Error { palette.error } else { palette.good };

@@ -1,12 +1,12 @@
-//! The lab's window.
+//! The main window.
 //!
-//! | file | does |
+//! | file | purpose |
 //! | --- | --- |
-//! | `logic.rs` | reads what happened elsewhere, carries out commands; paints nothing |
-//! | `files.rs` | the commands that touch files |
-//! | `ui.rs` | lays the window out; changes nothing but the draft that it hands back |
-//! | `tasks.rs` | work that would make a frame wait |
-//! | `self_check/` | are the estimators true? |
+//! | `logic.rs` | reads the session and task results, executes commands; draws nothing |
+//! | `files.rs` | file commands |
+//! | `ui.rs` | layout of the window; changes only the draft that it returns |
+//! | `tasks.rs` | work that would block a frame |
+//! | `self_check/` | validation of the estimators |
 
 mod backend;
 mod columns;
@@ -48,7 +48,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tasks::Tasks;
 
-/// The window: what is open, what renders, what is shown.
+/// Application state of the window: open document, session, views and settings.
 pub struct LabApp {
     document: Document,
     settings: Settings,
@@ -57,14 +57,14 @@ pub struct LabApp {
     session: Arc<Session>,
     state: ViewState,
     stats: Stats,
-    /// The views.
+    /// All views of the comparison.
     wall: Wall,
-    /// The picture of the selected view.
+    /// Image of the selected view.
     shown: Option<Arc<Snapshot>>,
-    /// The pixel under the pointer, with the picture that it is on.
+    /// Pixel under the pointer, with the image that contains it.
     pixel: Option<(PictureId, [usize; 2])>,
     zoom: f32,
-    /// Where the pointer was when Tab was pressed decides whether it flips pictures or moves the focus.
+    /// Whether the pointer is over the views, where Tab flips the views instead of moving the focus.
     over_wall: bool,
     applied_zoom_factor: f32,
     messages: Messages,
@@ -74,31 +74,31 @@ pub struct LabApp {
     factor_curve: FactorCurve,
     inspector: Inspector,
     lesson: Option<Player>,
-    /// Whether the window is too narrow for a lesson, pictures and the method side by side.
+    /// Whether the window is too narrow for a lesson, the views and the method column side by side.
     narrow: bool,
     own_lessons: Vec<Arc<Lesson>>,
-    /// Since when the scene is being built, if it is.
+    /// Start of the current scene build, if any.
     building_since: Option<Instant>,
     tasks: Tasks,
     grids: GridLists,
     screenshot: Option<Screenshot>,
-    /// Whether the desktop's file dialogs are used beside typed paths.
+    /// Whether the desktop's file dialogs are used in addition to typed paths.
     native_dialogs: bool,
-    /// When the document was last edited, in egui's time.
+    /// Time of the last edit, in egui's seconds.
     edited_at: f64,
-    /// What waits for the scene to be saved.
+    /// Command to execute after the scene is saved.
     after_save: Option<Command>,
     quitting: bool,
     window_title: String,
     ui_seconds: f32,
     latency: Latency,
     logic_seconds: f64,
-    /// Asks for a frame from other threads.
+    /// Context for requesting frames from other threads.
     repaint: egui::Context,
 }
 
 impl LabApp {
-    /// Opens the window's content inside an egui context.
+    /// Creates the window's content in an egui context.
     ///
     /// # Errors
     /// When the operating system refuses a thread.
@@ -113,10 +113,10 @@ impl LabApp {
         ctx.set_theme(settings.theme);
         let applied_zoom_factor = settings.zoom_factor();
         ctx.set_zoom_factor(applied_zoom_factor);
-        // Columns are remembered from the last run, but they start at their tops.
+        // Columns are restored from the last run, but their scroll positions are not.
         ctx.data_mut(|data| data.remove_by_type::<egui::scroll_area::State>());
         if let Some(size) = options.window {
-            // eframe restores the size of the last run over the one that was asked for.
+            // eframe overrides the requested size by that of the last run.
             ctx.send_viewport_cmd(egui::ViewportCommand::InnerSize(size.into()));
         }
 
@@ -179,7 +179,7 @@ impl LabApp {
     fn open_first(&mut self, wanted: Option<&Source>) {
         let first = Source::first();
         match wanted {
-            // A volume or a picture is put into the first scene.
+            // A volume or an image is opened in the first scene.
             Some(Source::File(path)) if path.extension().is_none_or(|e| e != "toml") => {
                 self.open(&first);
                 self.apply(Command::OpenAny(path.clone()));
@@ -190,85 +190,85 @@ impl LabApp {
         self.submit_if_needed();
     }
 
-    /// The document as it is.
+    /// Current document.
     #[must_use]
     pub fn doc(&self) -> &SceneDoc {
         self.document.doc()
     }
 
-    /// Whether there is something to save.
+    /// Whether there are unsaved changes.
     #[must_use]
     pub fn is_modified(&self) -> bool {
         self.document.is_modified()
     }
 
-    /// What the session is doing.
+    /// Session state of the selected view.
     #[must_use]
     pub fn state(&self) -> &ViewState {
         &self.state
     }
 
-    /// Rates and estimates of the selected view.
+    /// Rates and estimated times of the selected view.
     #[must_use]
     pub fn stats(&self) -> &Stats {
         &self.stats
     }
 
-    /// The views.
+    /// All views of the comparison.
     #[must_use]
     pub fn wall(&self) -> &Wall {
         &self.wall
     }
 
-    /// Carries out a command as if the window had been asked for it.
+    /// Executes a command as if a widget had issued it.
     pub fn request(&mut self, command: Command) {
         self.apply(command);
         self.submit_if_needed();
     }
 
-    /// What the tabs about single paths hold.
+    /// State of the inspection tabs.
     #[must_use]
     pub fn inspector(&self) -> &Inspector {
         &self.inspector
     }
 
-    /// What the majorant's factor costs, as far as it was measured.
+    /// Measured cost as a function of the majorant's factor, possibly incomplete.
     #[must_use]
     pub fn factor_curve(&self) -> &FactorCurve {
         &self.factor_curve
     }
 
-    /// The self-check.
+    /// State of the self-check dialog.
     #[must_use]
     pub fn self_check(&self) -> &SelfCheck {
         &self.self_check
     }
 
-    /// What the window has to say.
+    /// Displayed messages.
     #[must_use]
     pub fn messages(&self) -> &Messages {
         &self.messages
     }
 
-    /// The picture that is shown, with its numbers.
+    /// Displayed snapshot of the selected view.
     #[must_use]
     pub fn shown(&self) -> Option<&Snapshot> {
         self.shown.as_deref()
     }
 
-    /// How the window is set up.
+    /// Settings of the window.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// How soon the window has answered lately.
+    /// Recent latencies of the window.
     #[must_use]
     pub fn latency(&self) -> &Latency {
         &self.latency
     }
 
-    /// Seconds that the last frame's `ui` and commands took, without rasterising.
+    /// Duration of the last frame's `ui` and commands in seconds, without rasterisation.
     #[must_use]
     pub fn ui_seconds(&self) -> f32 {
         self.ui_seconds
@@ -278,7 +278,8 @@ impl LabApp {
 impl eframe::App for LabApp {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         let started = Instant::now();
-        // On a software rasteriser a frame costs tens of milliseconds: leave most of the machine to rendering.
+        // On a software rasteriser a frame takes tens of milliseconds: most of the CPU time is left to
+        // rendering.
         let frame_seconds = frame.info().cpu_usage.unwrap_or(0.0);
         self.tone_mapper.set_interval(Duration::from_secs_f32((4.0 * frame_seconds).clamp(0.0, 0.5)));
         self.update(ctx);
@@ -298,7 +299,7 @@ impl eframe::App for LabApp {
             self.submit_if_needed();
             ui.ctx().set_theme(self.settings.theme);
             self.apply_type_size(ui.ctx());
-            // What is on the screen is from before the commands.
+            // The frame on the screen was drawn before the commands.
             ui.ctx().request_repaint();
         }
         self.ui_seconds = started.elapsed().as_secs_f32();

@@ -1,4 +1,4 @@
-//! Opens the window and runs it until it is closed.
+//! Event loop of the window, from start to close.
 
 use super::LabApp;
 use super::backend::{self, Backend};
@@ -6,24 +6,24 @@ use crate::model::Source;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 
-/// How the window starts.
+/// Start options of the window.
 #[derive(Clone, Debug)]
 pub struct LabOptions {
-    /// What to open; the first scene if absent.
+    /// Source to open; the first scene if absent.
     pub open: Option<Source>,
-    /// Writes a picture of the window to this PNG file and ends.
+    /// PNG file for a screenshot of the window, after which the program ends.
     pub screenshot: Option<PathBuf>,
-    /// How long after the start that is, seconds.
+    /// Delay of the screenshot after the start, in seconds.
     pub after_seconds: f32,
-    /// Inner size of the window, points; remembered from the last run if absent.
+    /// Inner size of the window in points; restored from the last run if absent.
     pub window: Option<[f32; 2]>,
-    /// The theme; remembered from the last run if absent.
+    /// Theme; restored from the last run if absent.
     pub theme: Option<egui::Theme>,
-    /// A folder of lessons beside the embedded ones.
+    /// Folder of lessons in addition to the embedded ones.
     pub lessons: Option<PathBuf>,
-    /// The id of a lesson to open, perhaps with a page: `id:3`.
+    /// Id of a lesson to open, optionally with a page: `id:3`.
     pub lesson: Option<String>,
-    /// Whether to use the desktop's file dialogs beside typed paths.
+    /// Whether to use the desktop's file dialogs in addition to typed paths.
     pub native_dialogs: bool,
 }
 
@@ -42,18 +42,18 @@ impl Default for LabOptions {
     }
 }
 
-/// Why there is no window.
+/// Error that prevents the window from opening.
 #[derive(Debug, thiserror::Error)]
 pub enum LabError {
-    /// No display server answers.
+    /// No display server is reachable.
     #[error("there is no display to open a window on")]
     NoDisplay,
-    /// A display is there, but a window cannot be opened on it.
+    /// A display exists, but a window cannot be opened on it.
     #[error("the window cannot be opened: {0}")]
     Window(String),
 }
 
-/// Opens the window; returns when it is closed.
+/// Opens the window and returns when it is closed.
 ///
 /// # Errors
 /// [`LabError::NoDisplay`] where there is nothing to open a window on, e.g. over ssh.
@@ -84,7 +84,7 @@ fn native_options(options: &LabOptions, backend: Backend) -> eframe::NativeOptio
         .with_drag_and_drop(true)
         .with_icon(super::icon::icon());
     viewport = viewport.with_inner_size(options.window.unwrap_or([1440.0, 860.0]));
-    // A picture of the window shall not depend on the last run.
+    // A screenshot must not depend on the last run.
     let fresh = options.screenshot.is_some();
     eframe::NativeOptions {
         viewport,

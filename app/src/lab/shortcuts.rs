@@ -1,4 +1,4 @@
-//! Keyboard and mouse: one table for the keys, which the help window and the menus read too.
+//! Keyboard and mouse: one table of keys, which the help dialog and the menus use as well.
 
 use super::Command;
 use crate::model::Arrangement;
@@ -6,11 +6,11 @@ use crate::model::Purpose;
 use crate::model::WallEdit;
 use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
-/// A key and what it does.
+/// A keyboard shortcut and its command.
 pub struct Shortcut {
-    /// The keys.
+    /// Key combination.
     pub keys: KeyboardShortcut,
-    /// What it does, for the help window.
+    /// Description for the help dialog.
     pub text: &'static str,
     command: fn() -> Command,
 }
@@ -22,7 +22,7 @@ const fn key(modifiers: Modifiers, key: Key) -> KeyboardShortcut {
 const CTRL: Modifiers = Modifiers::COMMAND;
 const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
 
-/// Every key.
+/// All keyboard shortcuts.
 pub const KEYS: &[Shortcut] = &[
     Shortcut {
         keys: key(CTRL, Key::N),
@@ -67,12 +67,12 @@ pub const KEYS: &[Shortcut] = &[
     },
     Shortcut {
         keys: key(Modifiers::NONE, Key::B),
-        text: "Draw the box that numbers are about",
+        text: "Draw the region for statistics",
         command: || Command::ToggleBoxTool,
     },
     Shortcut {
         keys: key(Modifiers::NONE, Key::N),
-        text: "Show or hide numbers",
+        text: "Show or hide statistics",
         command: || Command::ToggleDock,
     },
     Shortcut {
@@ -87,7 +87,7 @@ pub const KEYS: &[Shortcut] = &[
     },
     Shortcut {
         keys: key(CTRL, Key::L),
-        text: "Large type, for projectors",
+        text: "Large text, for projectors",
         command: || Command::ToggleLargeType,
     },
     Shortcut { keys: key(CTRL, Key::Q), text: "Quit", command: || Command::Quit },
@@ -112,10 +112,10 @@ pub const KEYS: &[Shortcut] = &[
         text: "Half a stop darker",
         command: || Command::Expose(-0.5),
     },
-    Shortcut { keys: key(Modifiers::NONE, Key::F), text: "Fit the picture", command: || Command::Fit },
+    Shortcut { keys: key(Modifiers::NONE, Key::F), text: "Fit the image", command: || Command::Fit },
     Shortcut {
         keys: key(Modifiers::NONE, Key::Num1),
-        text: "Picture at 100 %",
+        text: "Image at 100 %",
         command: || Command::Zoom(1.0),
     },
     Shortcut {
@@ -135,26 +135,26 @@ pub const KEYS: &[Shortcut] = &[
     },
 ];
 
-/// Gestures on the picture and in panels, for the help window.
+/// Gestures on the image and in panels, for the help dialog.
 pub const GESTURES: &[(&str, &str)] = &[
     ("Left drag", "Orbit the camera"),
-    ("Right drag, Shift + drag", "Move the camera sideways"),
-    ("Ctrl or Alt + wheel", "Camera closer or away"),
-    ("Wheel", "Zoom the picture at the pointer"),
-    ("Middle drag, Space + drag", "Move the picture"),
-    ("Double click", "Fit the picture"),
-    ("Drag a number", "Change it; Shift is finer"),
-    ("Click a number", "Type it, with or without its unit"),
-    ("Right click a number", "As opened, or its default"),
+    ("Right drag, Shift + drag", "Pan the camera"),
+    ("Ctrl or Alt + wheel", "Dolly the camera"),
+    ("Wheel", "Zoom the image at the pointer"),
+    ("Middle drag, Space + drag", "Pan the image"),
+    ("Double click", "Fit the image"),
+    ("Drag a number", "Change its value; Shift for fine steps"),
+    ("Click a number", "Type a value, with or without its unit"),
+    ("Right click a number", "Reset to the opened value or the default"),
     ("Double click a plot", "Add a control point"),
     ("Right click a point, Delete", "Remove it"),
     ("Page up, Page down", "Turn the pages of a lesson"),
-    ("[ and ]", "Go through the events of a path"),
-    ("Tab, over the pictures", "Flip to the next view"),
+    ("[ and ]", "Step through the events of a path"),
+    ("Tab, over the views", "Flip to the next view"),
     ("Ctrl + plus, minus, 0", "Size of the interface"),
 ];
 
-/// The keys of a command, as menus show them.
+/// Text of the keys of a command for menus; empty if it has none.
 #[must_use]
 pub fn keys_of(ctx: &Context, command: &Command) -> String {
     KEYS.iter()
@@ -162,15 +162,15 @@ pub fn keys_of(ctx: &Context, command: &Command) -> String {
         .map_or_else(String::new, |shortcut| name(ctx, &shortcut.keys))
 }
 
-/// The keys of a shortcut as people name them.
+/// Readable name of a key combination.
 #[must_use]
 pub fn name(ctx: &Context, keys: &KeyboardShortcut) -> String {
-    // egui spells out the names of keys that are signs.
+    // egui spells out the names of punctuation keys.
     let text = ctx.format_shortcut(keys);
     text.replace("Period", ".")
 }
 
-/// The commands of the keys that were pressed since the last frame.
+/// Returns the commands of the keys pressed since the last frame.
 #[must_use]
 pub fn pressed(ctx: &Context) -> Vec<Command> {
     let typing = ctx.text_edit_focused();
@@ -188,11 +188,11 @@ pub fn pressed(ctx: &Context) -> Vec<Command> {
 
 fn command_of(event: &Event, typing: bool) -> Option<Command> {
     match event {
-        // The event's own modifiers count: the keys may be up again by the end of the frame.
+        // The modifiers of the event are used, because the keys may be released by the end of the frame.
         Event::Key { key, pressed: true, modifiers, .. } => KEYS
             .iter()
             .find(|s| s.keys.logical_key == *key && modifiers.matches_exact(s.keys.modifiers))
-            // Fields take the letters, and have an undo of their own while they are edited.
+            // Text fields receive letters, and have their own undo while they are edited.
             .filter(|s| !typing || (s.keys.modifiers.command && !matches!(key, Key::Z | Key::Y)))
             .map(|s| (s.command)()),
         Event::Text(text) if text == "?" && !typing => Some(Command::ToggleShortcuts),
@@ -200,7 +200,7 @@ fn command_of(event: &Event, typing: bool) -> Option<Command> {
     }
 }
 
-/// Whether Tab was pressed. It is taken from egui, which would move the focus.
+/// Whether Tab was pressed. The event is consumed, so that egui does not move the focus.
 #[must_use]
 pub fn tab_pressed(ctx: &Context) -> bool {
     if ctx.text_edit_focused() {

@@ -1,4 +1,4 @@
-//! The line at the foot of the window: what the program does, the pixel under the pointer, the zoom.
+//! Status bar: render status, pixel under the pointer, image size and zoom.
 
 use super::LabApp;
 use crate::model::stats::{count, duration};
@@ -33,7 +33,7 @@ impl LabApp {
         });
     }
 
-    /// The numbers of the pixel under the pointer.
+    /// Radiance, standard error and map value of the pixel under the pointer.
     fn pixel_text(&self, picture: PictureId, at: [usize; 2]) -> Option<String> {
         let uploaded = self.wall.uploaded(picture)?;
         let snapshot = uploaded.snapshot.as_ref()?;
@@ -45,7 +45,7 @@ impl LabApp {
         Some(text + &map.unwrap_or_default())
     }
 
-    /// What the program does, in a colour and a few words.
+    /// Render status as a colour and a short text.
     fn activity(&self, palette: &Palette) -> (Color32, String) {
         let stats = &self.stats;
         let rate = stats.spp_per_second.map_or_else(String::new, |r| format!("   {} spp/s", count(r)));
@@ -69,7 +69,7 @@ impl LabApp {
                 let text = format!("Stopped   all {what} after {} spp: no relative error", stats.spp);
                 (palette.warning, text)
             }
-            // The others may still have something to do.
+            // Other views may not have finished.
             Status::Finished if paused => (
                 palette.warning,
                 format!("Paused   finished, {} spp in {}", stats.spp, duration(stats.seconds)),

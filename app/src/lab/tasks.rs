@@ -1,5 +1,6 @@
-//! Work that would make a frame wait: file dialogs, listing grids, writing pictures.
-//! Each runs on a named thread and answers with one [`Outcome`] that `logic` picks up.
+//! Work that would block a frame: file dialogs, listing grids, reading and writing images.
+//!
+//! Each kind of task runs on a named thread and answers with one [`Outcome`], which `logic` polls.
 
 use super::Purpose;
 use crate::background::{Background, Reply, Wake};
@@ -12,37 +13,37 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a task came to.
+/// Result of a task.
 #[derive(Debug)]
 pub enum Outcome {
-    /// A file dialog closed: with a file, or without one (cancelled, or no portal to show it).
+    /// A file dialog was closed, with a file or without (cancelled, or no portal available).
     Picked(Purpose, Option<PathBuf>),
-    /// The grids of a file, or what is wrong with it. The text is the name in the document.
+    /// Grids of a file, or its error. The string is the name of the file in the document.
     Listed(String, Result<Vec<String>, String>),
-    /// A dropped or opened volume was looked into.
+    /// Measurements of a dropped or opened volume.
     Volume(PathBuf, Result<Look, String>),
-    /// A picture was written.
+    /// An image or a report was written.
     Exported(PathBuf, Result<(), String>),
-    /// A reference was read.
+    /// A reference image was read.
     Reference(PathBuf, Result<Reference, String>),
 }
 
-/// One task.
+/// Closure that executes one task.
 type Job = Box<dyn FnOnce() -> Outcome + Send>;
 
-/// Tasks in progress, on one thread for each kind.
+/// Tasks in progress, with one thread per kind.
 pub struct Tasks {
     workers: BTreeMap<&'static str, Background<Job, Outcome>>,
     wake: Wake,
 }
 
 impl Tasks {
-    /// No tasks yet; `wake` is called after each.
+    /// Creates an empty set; `wake` is called after each task.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { workers: BTreeMap::new(), wake: Arc::new(wake) }
     }
 
-    /// The outcomes since the last call.
+    /// Returns the outcomes since the last call.
     pub fn take(&mut self) -> Vec<Outcome> {
         self.workers.values_mut().flat_map(Background::poll).collect()
     }
@@ -78,7 +79,7 @@ impl Tasks {
         self.spawn("grids", move || Outcome::Listed(named, names(&path)))
     }
 
-    /// Reads a picture that errors of a document's views are measured against.
+    /// Reads a reference image for the views of a document.
     ///
     /// # Errors
     /// When there is no thread to be had.
@@ -91,7 +92,7 @@ impl Tasks {
         self.spawn("reference", move || {
             let read = Reference::read(&path).map_err(|e| e.to_string());
             let read = read.and_then(|reference| match reference.unfit {
-                // A name from an earlier version is brought up to date.
+                // A fingerprint of an earlier version is replaced by the current one.
                 None => {
                     let mut reference = reference;
                     if reference.target.as_deref().is_some_and(|name| library.is_named(name, &doc)) {
@@ -100,7 +101,7 @@ impl Tasks {
                     Ok(reference)
                 }
                 Some(reason) => Err(format!(
-                    "{}: {reason}, so that it cannot be a reference. Load or render another.",
+                    "{}: {reason}, so that it cannot be used as a reference. Load or render another.",
                     path.display()
                 )),
             });
@@ -119,7 +120,7 @@ impl Tasks {
         })
     }
 
-    /// Looks into a volume before the document is changed for it.
+    /// Reads and measures a volume before the document is changed.
     ///
     /// # Errors
     /// When there is no thread to be had.
@@ -130,7 +131,7 @@ impl Tasks {
         })
     }
 
-    /// Writes a picture: PNG as shown, or EXR with all the numbers.
+    /// Writes an image: PNG as shown, or EXR with radiance and standard errors.
     ///
     /// # Errors
     /// When there is no thread to be had.
@@ -151,7 +152,7 @@ impl Tasks {
     }
 }
 
-/// Names of the grids that can be read; the formats without names hold one grid.
+/// Names of the readable grids of a file; empty for formats without names, which contain one grid.
 fn names(path: &Path) -> Result<Vec<String>, String> {
     if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("vdb")) {
         let read = volume::read_volume(path, None, &volume::ReadLimits::default());
@@ -163,7 +164,7 @@ fn names(path: &Path) -> Result<Vec<String>, String> {
     match (names.is_empty(), problem) {
         (true, Some(problem)) => Err(problem),
         (true, None) => {
-            Err(format!("{}: there is no grid in this file. Export one grid of density.", path.display()))
+            Err(format!("{}: the file contains no grid. Export one density grid.", path.display()))
         }
         (false, _) => Ok(names),
     }
@@ -177,7 +178,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
             ("Open volume", "Volumes", volume::EXTENSIONS, "")
         }
         Purpose::PhaseTable => ("Open phase function", "Tables", &["csv", "txt", "dat"], ""),
-        Purpose::EnvironmentMap(_) => ("Open environment map", "Pictures", &["exr", "hdr"], ""),
+        Purpose::EnvironmentMap(_) => ("Open environment map", "Images", &["exr", "hdr"], ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),
         Purpose::ExportReport => return dialog.set_title("Export comparison").pick_folder(),

@@ -1,4 +1,4 @@
-//! The window's layout: menu, two columns, picture, messages, status.
+//! Layout of the window: menu, two columns, views, messages, status bar.
 
 use super::dialogs::dialog_ui;
 use super::files::FileKind;
@@ -16,11 +16,11 @@ use egui::{
 };
 use majorant_core::scene::{CameraDoc, SceneDoc};
 
-/// Below so many points a lesson, the pictures and the method do not fit side by side.
+/// Window width in points below which a lesson, the views and the method column do not fit side by side.
 const WIDE: f32 = 1500.0;
 
 impl LabApp {
-    /// Draws a frame; returns what it was asked for.
+    /// Draws a frame and returns the commands issued by its widgets.
     pub(super) fn window_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = self.keys(ui.ctx());
         let whole = self.document.doc().clone();
@@ -74,7 +74,7 @@ impl LabApp {
         }
         self_check_ui(ui.ctx(), &mut self.self_check, self.document.doc(), &mut commands);
         drop_overlay(ui.ctx());
-        // Commands of this frame were meant for the document as it was drawn, edits included.
+        // Commands of this frame refer to the document as drawn, so that its edits are applied first.
         let mut edited = if draft == before { whole.clone() } else { whole.with_view_doc(selected, &draft) };
         if let Some((view, camera)) = camera
             && let Some(seen) = edited.view_doc(view)
@@ -87,7 +87,7 @@ impl LabApp {
         commands
     }
 
-    /// Keys of this frame; what is open over the window keeps the others from it.
+    /// Commands of the keys of this frame; an open dialog blocks all but its own.
     fn keys(&self, ctx: &Context) -> Vec<Command> {
         let mut commands = shortcuts::pressed(ctx);
         if self.over_wall && self.document.doc().view_count() > 1 && shortcuts::tab_pressed(ctx) {
@@ -99,7 +99,7 @@ impl LabApp {
         commands
     }
 
-    /// Errors and confirmations, above the status line.
+    /// Shows errors and confirmations above the status bar.
     fn messages_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
         if self.messages.lines().is_empty() {
             return;
@@ -112,7 +112,7 @@ impl LabApp {
         });
     }
 
-    /// The wall with its bar and numbers; returns the camera of a view that a gesture has moved.
+    /// Shows the views with bar and dock; returns the camera of a view that a gesture has moved.
     fn wall_ui(
         &mut self,
         ui: &mut Ui,
@@ -131,7 +131,7 @@ impl LabApp {
             let share = dock::share(&self.settings.tab);
             let panel = Panel::bottom(format!("dock {share}")).frame(frame).resizable(true);
             panel.default_size(share * room).size_range(110.0..=(0.7 * room).max(120.0)).show(ui, |ui| {
-                // The panel keeps its height whatever its tab holds.
+                // The height of the panel does not depend on the content of the tab.
                 ui.set_min_height(ui.available_height());
                 let mut cx = dock::Cx { wall: &self.wall, doc, inspector: &mut self.inspector, commands };
                 dock::dock_ui(ui, &self.settings.tab, &mut cx);
@@ -146,19 +146,19 @@ impl LabApp {
     }
 }
 
-/// What is planted, for as long as it is.
+/// Shows a banner while a fault is enabled.
 fn fault_ui(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     ui.horizontal(|ui| {
-        ui.label(RichText::new(format!("Planted on purpose: {name}")).color(palette.strong));
-        ui.label(RichText::new("the picture of this view is wrong").color(palette.text));
-        if ui.small_button("Take it out").clicked() {
+        ui.label(RichText::new(format!("Deliberate fault: {name}")).color(palette.strong));
+        ui.label(RichText::new("the image of this view is incorrect").color(palette.text));
+        if ui.small_button("Remove it").clicked() {
             commands.push(Command::TakeFaultOut);
         }
     });
 }
 
-/// While files hover over the window: what would become of them.
+/// Shows the effect of dropping the files that hover over the window.
 fn drop_overlay(ctx: &Context) {
     let hovered = ctx.input(|i| i.raw.hovered_files.clone());
     if hovered.is_empty() {
@@ -168,11 +168,11 @@ fn drop_overlay(ctx: &Context) {
         .iter()
         .map(|file| match file.path.as_deref().map(FileKind::of) {
             Some(FileKind::Scene) => "Open this scene",
-            Some(FileKind::Volume) => "Fill the medium with this volume",
+            Some(FileKind::Volume) => "Use this volume as density of the medium",
             Some(FileKind::Panorama) => {
-                "Measure errors against this picture, or light the scene with it if it is a panorama"
+                "Use this image as reference, or as environment map if it is a panorama"
             }
-            Some(FileKind::Unknown) => "Not a kind of file that Majorant reads",
+            Some(FileKind::Unknown) => "Unsupported file type",
             None => "Drop a scene, a volume or an environment map",
         })
         .collect();

@@ -1,4 +1,4 @@
-//! Equations: TeX, set by RaTeX in the fonts of KaTeX, drawn in the colour of the text around them.
+//! TeX equations, typeset by RaTeX in the fonts of KaTeX and drawn in the colour of the surrounding text.
 
 use egui::{ColorImage, Context, Id, TextureHandle, TextureOptions, Vec2};
 use ratex_layout::{LayoutOptions, layout, to_display_list};
@@ -7,35 +7,35 @@ use ratex_types::{Color, MathStyle};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-/// Room around the ink, in points, so that nothing of a slanted letter is cut off.
+/// Padding around the ink, in points, so that slanted letters are not clipped.
 pub const PADDING: f32 = 1.0;
 
-/// Pictures of equations that are kept though nothing shows them now.
+/// Number of cached equations from which those not shown in the last frame are evicted.
 const KEPT: usize = 64;
 
-/// How an equation is set.
+/// TeX style of an equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Place {
-    /// On a line of its own: large operators, limits above and below.
+    /// Display style, on a line of its own: large operators, limits above and below.
     Display,
-    /// Within a sentence.
+    /// Text style, within a sentence.
     Inline,
 }
 
-/// An equation as a picture, white on nothing: to be painted in any colour.
+/// A rasterized equation, white on a transparent background, so that it can be tinted with any colour.
 pub struct Equation {
-    /// The picture.
+    /// Coverage in the alpha channel.
     pub texture: TextureHandle,
-    /// Its size in points.
+    /// Size, in points.
     pub size: Vec2,
-    /// From its top to the baseline, in points.
+    /// Distance from the top to the baseline, in points.
     pub baseline: f32,
 }
 
-/// Whether a text is an equation.
+/// Checks that a text is valid TeX.
 ///
 /// # Errors
-/// Says what of the TeX is not understood.
+/// The parser's message for invalid TeX.
 pub fn check(tex: &str) -> Result<(), String> {
     ratex_parser::parse(tex).map(|_| ()).map_err(|error| error.message)
 }
@@ -44,7 +44,7 @@ pub fn check(tex: &str) -> Result<(), String> {
 struct Key {
     tex: String,
     place: Place,
-    // Bits, so that they can be compared.
+    // Bit patterns of floats, which can be hashed.
     em: u32,
     pixels_per_point: u32,
 }
@@ -54,10 +54,10 @@ struct Shelf {
     equations: HashMap<Key, (Arc<Equation>, u64)>,
 }
 
-/// An equation at a size, `em` points: set once, then taken from the shelf.
+/// Returns an equation typeset at a font size of `em` points, from the cache if it was set before.
 ///
 /// # Errors
-/// Says what of the TeX is not understood.
+/// The parser's message for invalid TeX.
 pub fn equation(ctx: &Context, tex: &str, place: Place, em: f32) -> Result<Arc<Equation>, String> {
     let pixels_per_point = ctx.pixels_per_point();
     let key =
@@ -116,8 +116,8 @@ mod tests {
         let sum = r"\sum_{i=1}^{k} x_i";
         let [shown, within] = [Place::Display, Place::Inline].map(|place| set(sum, place));
         assert!(shown.baseline > 10.0 && shown.baseline < shown.size.y);
-        assert!(shown.size.y > 1.5 * within.size.y, "limits stand above and below only on a line of its own");
-        assert!(Arc::ptr_eq(&within, &set(sum, Place::Inline)), "set once");
+        assert!(shown.size.y > 1.5 * within.size.y, "only display style sets limits above and below");
+        assert!(Arc::ptr_eq(&within, &set(sum, Place::Inline)), "the cached equation is returned");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The file of a lesson: Markdown with headers that say what each step sets.
+//! Lesson file format: Markdown with a TOML header per step that lists its settings.
 //!
 //! ```text
 //!   +++
@@ -15,7 +15,8 @@
 //!   …
 //! ```
 //!
-//! Between `+++ kind` and the next `+++` stands TOML, then the step's text, with equations as TeX between dollars.
+//! TOML is enclosed by `+++ kind` and the next `+++`; the step's text follows, with TeX equations between
+//! dollar signs.
 
 use super::live;
 use super::prose::damaged_equation;
@@ -25,19 +26,19 @@ use majorant_core::scene::SceneDoc;
 use majorant_core::transmittance::{Shape, TransmittanceKind};
 use serde::Deserialize;
 
-/// What a step is for.
+/// Purpose of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// The reader commits to an answer.
+    /// The reader chooses an answer.
     Predict,
-    /// The lab shows it.
+    /// The window shows the result.
     See,
-    /// The text says why.
+    /// The text gives the reason.
     Explain,
 }
 
 impl Stage {
-    /// Name for people.
+    /// Display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -52,77 +53,77 @@ impl Stage {
     }
 }
 
-/// What the ray on the bench is set to.
+/// Settings of the *Ray* tab.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RaySet {
-    /// A shape's name, or absent for the pixel's ray.
+    /// Name of an analytic shape; `None` for the ray of the picked pixel.
     pub through: Option<String>,
-    /// Largest extinction of a shape.
+    /// Maximum extinction of the shape, per unit of length.
     pub extinction: Option<f32>,
-    /// Cells of its majorant.
+    /// Number of cells of the shape's majorant.
     pub cells: Option<u32>,
-    /// Its majorant over the least bound.
+    /// Majorant divided by the tight bound.
     pub factor: Option<f32>,
-    /// The estimator's id.
+    /// Id of the transmittance estimator.
     pub kind: Option<String>,
 }
 
-/// What a step does to the lab. Absent keys leave things as they are.
+/// Settings that a step applies to the window. Absent keys leave settings unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Stop {
-    /// An embedded scene to begin from; the next step goes on from the last step's.
+    /// Name of an embedded scene; without it, a step continues from the scene of the previous step.
     pub scene: Option<String>,
-    /// Keys of the scene, as on the command line.
+    /// Assignments `key=value` of scene keys, as on the command line.
     pub set: Vec<String>,
-    /// So many views.
+    /// Number of views.
     pub views: Option<usize>,
-    /// The tab below the pictures; `none` for no numbers at all.
+    /// Id of the tab below the images; `none` closes the tabs.
     pub tab: Option<String>,
-    /// The pixel that is picked.
+    /// Picked pixel, column and row.
     pub pick: Option<[usize; 2]>,
-    /// The ray bench.
+    /// Settings of the *Ray* tab.
     pub ray: Option<RaySet>,
     /// Answers to choose from.
     pub choices: Vec<String>,
-    /// Which of them is right, from 0.
+    /// Index of the correct answer, from 0.
     pub right: usize,
 }
 
-/// A step: what it is for, what it sets, and its text.
+/// One step of a lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What it is for.
+    /// Purpose.
     pub stage: Stage,
-    /// What it sets.
+    /// Settings.
     pub stop: Stop,
-    /// Markdown.
+    /// Text, in Markdown.
     pub text: String,
 }
 
-/// A lesson.
+/// A parsed lesson.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lesson {
-    /// The file's name without its ending.
+    /// File name without extension.
     pub id: String,
-    /// Its title.
+    /// Title.
     pub title: String,
-    /// One line for the list.
+    /// One-line summary for the list of lessons.
     pub about: String,
-    /// Its steps, at least one.
+    /// Steps, at least one.
     pub steps: Vec<Step>,
 }
 
-/// A lesson that cannot be read.
+/// Error of a lesson file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}, line {line}: {reason}")]
 pub struct LessonError {
-    /// The file.
+    /// File name.
     pub file: String,
-    /// The line, from 1.
+    /// Line, from 1.
     pub line: usize,
-    /// What is wrong, and the cure.
+    /// Problem and remedy.
     pub reason: String,
 }
 
@@ -134,7 +135,7 @@ struct Head {
     about: String,
 }
 
-/// A header with the lines after it.
+/// A header and the text that follows it.
 struct Part<'a> {
     line: usize,
     kind: &'a str,
@@ -147,7 +148,7 @@ fn parts(source: &str) -> Vec<Part<'_>> {
     let mut in_header = false;
     for (number, line) in source.lines().enumerate() {
         match line.strip_prefix("+++") {
-            // The header of a part ends where the next mark has no kind.
+            // A header ends at the next `+++` without a kind.
             Some(rest) if in_header && rest.trim().is_empty() => in_header = false,
             Some(rest) => {
                 in_header = true;
@@ -171,10 +172,10 @@ fn parts(source: &str) -> Vec<Part<'_>> {
 }
 
 impl Lesson {
-    /// Reads a lesson; `id` is its file's name without the ending.
+    /// Parses a lesson; `id` is its file name without extension.
     ///
     /// # Errors
-    /// When a header is damaged, names what does not exist, or there is no step.
+    /// A malformed header, an unknown scene, tab, shape, estimator or number, invalid TeX, or no step.
     pub fn parse(id: &str, source: &str) -> Result<Self, LessonError> {
         let error = |line: usize, reason: String| LessonError { file: format!("{id}.md"), line, reason };
         let parts = parts(source);
@@ -186,11 +187,14 @@ impl Lesson {
         let mut steps = Vec::new();
         for part in parts {
             let stage = Stage::find(part.kind).ok_or_else(|| {
-                error(part.line, format!("`{}` is no kind of step: predict, see or explain", part.kind))
+                error(part.line, format!("`{}` is no kind of step: use predict, see or explain", part.kind))
             })?;
             let stop: Stop = toml::from_str(&part.toml).map_err(|e| error(part.line, e.message().into()))?;
             if !stop.choices.is_empty() && stop.right >= stop.choices.len() {
-                return Err(error(part.line, "`right` counts from 0, and names one of the choices".into()));
+                return Err(error(
+                    part.line,
+                    "`right` counts from 0, and must be the index of a choice".into(),
+                ));
             }
             stop.check().map_err(|reason| error(part.line, reason))?;
             if let Some(name) = live::names(&part.text).find(|name| !live::NAMES.contains(name)) {
@@ -202,10 +206,10 @@ impl Lesson {
             steps.push(Step { stage, stop, text: part.text.trim().to_owned() });
         }
         if steps.is_empty() {
-            return Err(error(1, "it has no step: begin one with +++ see".into()));
+            return Err(error(1, "the lesson has no step: begin one with +++ see".into()));
         }
         let lesson = Self { id: id.to_owned(), title, about, steps };
-        // Every scene of it has to be there before anybody is led to it.
+        // Scenes are validated here, so that no step of an open lesson can fail.
         let mut doc = SceneDoc::default();
         for (i, step) in lesson.steps.iter().enumerate() {
             doc = step.stop.scene(&doc).map_err(|reason| error(1, format!("step {}: {reason}", i + 1)))?;
@@ -213,14 +217,14 @@ impl Lesson {
         Ok(lesson)
     }
 
-    /// What a step sets, with what those before it have set and it leaves.
+    /// Returns the settings of a step, with those left unset inherited from earlier steps.
     #[must_use]
     pub fn stop_at(&self, step: usize) -> Option<Stop> {
         let steps = self.steps.get(..=step)?;
         Some(steps.iter().fold(Stop::default(), |stop, step| stop.then(&step.stop)))
     }
 
-    /// The scene that a step shows: what all steps up to it have set.
+    /// Returns the scene of a step, with the edits of all steps up to it applied.
     #[must_use]
     pub fn scene_at(&self, step: usize) -> Option<SceneDoc> {
         let mut doc = SceneDoc::default();
@@ -232,7 +236,7 @@ impl Lesson {
 }
 
 impl Stop {
-    /// What two steps set one after the other, but for the scene.
+    /// Combines the settings of two successive steps, except those of the scene.
     fn then(self, next: &Self) -> Self {
         let or = |before: Option<String>, after: &Option<String>| after.clone().or(before);
         let ray = match (self.ray, &next.ray) {
@@ -248,7 +252,7 @@ impl Stop {
         Self { tab: or(self.tab, &next.tab), pick: next.pick.or(self.pick), ray, ..next.clone() }
     }
 
-    /// Whether everything that it names exists, but for the scene.
+    /// Checks that the named tab, shape and estimator exist.
     fn check(&self) -> Result<(), String> {
         let known = |what: &str, name: &Option<String>, all: Vec<&str>| match name {
             Some(name) if !all.contains(&name.as_str()) => {
@@ -263,7 +267,7 @@ impl Stop {
         known("estimator of transmittance", &ray.kind, kinds.iter().map(|kind| kind.entry().id).collect())
     }
 
-    /// The scene after this step, from the one before it.
+    /// Applies the step's edits to the scene of the previous step.
     fn scene(&self, before: &SceneDoc) -> Result<SceneDoc, String> {
         let mut doc = match &self.scene {
             None => before.clone(),
@@ -310,7 +314,7 @@ mod tests {
             (stop.tab.as_deref(), ray.cells, ray.kind.as_deref()),
             (Some("ray"), Some(8), Some("ratio"))
         );
-        assert!(stop.choices.is_empty(), "an answer is asked for once");
+        assert!(stop.choices.is_empty(), "choices are not inherited");
     }
 
     #[test]

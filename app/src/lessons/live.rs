@@ -1,10 +1,10 @@
-//! Numbers in a lesson's text: `{{name}}` stands for what the lab measures now.
+//! Measured numbers in lesson text: `{{name}}` is replaced by the current value of a measurement.
 
 use crate::wall::inspector::Inspector;
 use crate::wall::{Wall, dock};
 use majorant_core::compare::Verdict;
 
-/// Every name that a text may use.
+/// Names of the numbers.
 pub const NAMES: &[&str] = &[
     "ray.truth",
     "ray.mean",
@@ -23,21 +23,21 @@ pub const NAMES: &[&str] = &[
     "B.variance over A.variance",
 ];
 
-/// The names in a text.
+/// Iterates over the names that a text uses.
 pub fn names(text: &str) -> impl Iterator<Item = &str> {
     text.split("{{").skip(1).filter_map(|rest| rest.split_once("}}").map(|(name, _)| name.trim()))
 }
 
-/// Where the numbers come from.
+/// Sources of the numbers.
 pub struct Live<'a> {
-    /// Views and what is known about them.
+    /// Views and their statistics.
     pub wall: &'a Wall,
-    /// Rays and paths.
+    /// Measurements of rays and paths.
     pub inspector: &'a Inspector,
 }
 
 impl Live<'_> {
-    /// The text with its numbers in it; an ellipsis for what is not measured yet.
+    /// Substitutes the numbers of a text; a number that is not measured yet becomes an ellipsis.
     #[must_use]
     pub fn fill(&self, text: &str) -> String {
         let mut filled = String::with_capacity(text.len());

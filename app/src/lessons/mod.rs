@@ -1,17 +1,17 @@
-//! Lessons: short texts that drive the lab, each step to predict, to see, or to explain.
+//! Lessons: short texts that control the window, in steps to predict, see or explain a result.
 //!
 //! ```text
-//!   a Markdown file ──► Lesson (steps with what they set) ──► Player (which step) ──► commands to the lab
+//!   Markdown file ──► Lesson (steps with settings) ──► Player (current step) ──► commands to the window
 //! ```
 //!
 //! | file | does |
 //! | --- | --- |
-//! | `lesson.rs` | the file format |
-//! | `shelf.rs` | the embedded lessons, and those of a folder |
-//! | `player.rs` | which lesson is open, and the column that shows it |
-//! | `prose.rs` | Markdown as paragraphs, lists and equations |
-//! | `equation.rs` | TeX as pictures |
-//! | `live.rs` | numbers in the text, computed when they are read |
+//! | `lesson.rs` | file format |
+//! | `shelf.rs` | embedded lessons and those of a folder |
+//! | `player.rs` | open lesson and the column that shows it |
+//! | `prose.rs` | layout of Markdown paragraphs, lists and equations |
+//! | `equation.rs` | rasterization of TeX |
+//! | `live.rs` | measured numbers in the text |
 
 mod equation;
 mod lesson;

@@ -1,4 +1,4 @@
-//! Which lesson is open, and the column that shows it.
+//! State of the open lesson, and the column that shows it.
 
 use super::prose::prose_ui;
 use super::{Lesson, Live, Stage, Step};
@@ -8,21 +8,21 @@ use crate::widgets::badge;
 use egui::{Button, Frame, Id, Key, Label, Margin, ProgressBar, RadioButton, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
-/// An open lesson.
+/// An open lesson with its current step and answers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Player {
     /// The lesson.
     pub lesson: Arc<Lesson>,
-    /// Its step.
+    /// Index of the current step.
     pub step: usize,
-    /// The answers that were chosen, by step.
+    /// Chosen answer of each step.
     pub answers: Vec<Option<usize>>,
-    /// Whether the method column is shown beside it, where the window is narrow.
+    /// Whether the method column is shown as well when the window is narrow.
     pub with_method: bool,
 }
 
 impl Player {
-    /// A lesson at one of its steps.
+    /// Opens a lesson at a step.
     #[must_use]
     pub fn new(lesson: Arc<Lesson>, step: usize) -> Self {
         let steps = lesson.steps.len();
@@ -34,7 +34,7 @@ impl Player {
         }
     }
 
-    /// The step that is shown.
+    /// The current step.
     #[must_use]
     pub fn now(&self) -> Option<&Step> {
         self.lesson.steps.get(self.step)
@@ -44,7 +44,7 @@ impl Player {
         self.step + 1 >= self.lesson.steps.len()
     }
 
-    /// Whether one may go on: a prediction comes before what it is about.
+    /// Whether the next step may be shown: a prediction has to be answered first.
     #[must_use]
     pub fn may_go_on(&self) -> bool {
         let answered = self.answers.get(self.step).is_some_and(Option::is_some);
@@ -52,7 +52,7 @@ impl Player {
     }
 }
 
-/// Draws the column; what is asked for goes to `commands`.
+/// Draws the column; user actions are appended to `commands`.
 pub fn player_ui(ui: &mut Ui, player: &Player, live: &Live<'_>, commands: &mut Vec<Command>) {
     let palette = Palette::get(ui);
     let Some(step) = player.now() else { return };
@@ -98,7 +98,7 @@ fn choices_ui(ui: &mut Ui, player: &Player, step: &Step, commands: &mut Vec<Comm
         if response.clicked() {
             commands.push(Command::AnswerLesson(i));
         }
-        // The space bar answers, and Tab goes to the next one.
+        // Focus the first answer: Space chooses it, Tab moves to the next.
         if turned && i == 0 {
             response.request_focus();
         }
@@ -106,15 +106,15 @@ fn choices_ui(ui: &mut Ui, player: &Player, step: &Step, commands: &mut Vec<Comm
     if let Some(chosen) = chosen {
         ui.add_space(UNIT);
         let (text, colour) = if chosen == step.stop.right {
-            ("So it is. The next step shows it.", palette.good)
+            ("Correct. The next step shows it.", palette.good)
         } else {
-            ("Many would say so. The next step shows what happens.", palette.warning)
+            ("A common guess, but wrong. The next step shows what happens.", palette.warning)
         };
         ui.add(Label::new(RichText::new(text).color(colour)).wrap());
     }
 }
 
-/// Whether another page was shown in the frame before this one.
+/// Whether the previous frame showed another step.
 fn newly_shown(ui: &Ui, player: &Player) -> bool {
     let page = (player.lesson.id.clone(), player.step);
     ui.data_mut(|data| {
@@ -151,7 +151,7 @@ fn footer_ui(ui: &mut Ui, player: &Player, commands: &mut Vec<Command>) {
     });
 }
 
-/// Page up and page down turn steps; Tab and space choose answers.
+/// Handles Page Up and Page Down, which change the step.
 fn keys(ui: &Ui, player: &Player, commands: &mut Vec<Command>) {
     if ui.ctx().text_edit_focused() {
         return;

@@ -1,4 +1,4 @@
-//! Markdown as it is read: headings, paragraphs, lists, and equations in TeX between dollars.
+//! Layout of Markdown: headings, paragraphs, lists, and TeX equations between dollar signs.
 
 use super::equation::{Equation, PADDING, Place, check, equation};
 use crate::theme::{Palette, UNIT};
@@ -8,13 +8,13 @@ use egui::{Color32, Pos2, Role, WidgetInfo};
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::sync::Arc;
 
-/// Holds the place of an equation in a line of text, which is never broken there.
+/// Placeholder for an inline equation: a non-breaking space, so that lines do not break inside it.
 const HELD: char = '\u{a0}';
 
-/// The letters of KaTeX are smaller than those of the text at the same size.
+/// Font size of equations relative to text: KaTeX glyphs are smaller at the same size.
 const MATHS_SCALE: f32 = 1.16;
 
-/// How a run of text is set.
+/// Style of a run of text.
 #[derive(Clone, Copy, Default)]
 struct Style {
     strong: bool,
@@ -22,7 +22,7 @@ struct Style {
     code: bool,
 }
 
-/// What is being collected.
+/// Kind of the current Markdown block.
 #[derive(Clone, Copy, PartialEq)]
 enum Block {
     Paragraph,
@@ -31,14 +31,14 @@ enum Block {
     Code,
 }
 
-/// An equation within a text: what was written, its picture, and how many letters hold its place.
+/// An inline equation: its source, its raster, and the number of placeholder characters.
 struct Inline {
     tex: String,
     equation: Arc<Equation>,
     letters: usize,
 }
 
-/// A paragraph on its way to the page.
+/// A paragraph under construction.
 #[derive(Default)]
 struct Paragraph {
     job: LayoutJob,
@@ -49,7 +49,7 @@ fn parser(markdown: &str) -> Parser<'_> {
     Parser::new_ext(markdown, Options::ENABLE_MATH)
 }
 
-/// The first equation of a text that cannot be set, and why.
+/// Returns a message about the first invalid equation of a text.
 #[must_use]
 pub fn damaged_equation(markdown: &str) -> Option<String> {
     parser(markdown).find_map(|event| match event {
@@ -60,7 +60,7 @@ pub fn damaged_equation(markdown: &str) -> Option<String> {
     })
 }
 
-/// Shows a text.
+/// Draws Markdown text.
 pub fn prose_ui(ui: &mut Ui, markdown: &str) {
     let mut paragraph = Paragraph::default();
     let mut style = Style::default();
@@ -119,7 +119,7 @@ impl Paragraph {
         self.job.append(&text.replace(HELD, " "), 0.0, format(ui, style, block));
     }
 
-    /// Leaves as much room in the line as the equation is wide.
+    /// Appends placeholder characters whose total width is that of the equation.
     fn equation(&mut self, ui: &Ui, tex: &str, style: Style, block: Block) {
         let format = format(ui, style, block);
         let em = MATHS_SCALE * format.font_id.size;
@@ -136,7 +136,7 @@ impl Paragraph {
         self.equations.push(Inline { tex: tex.to_owned(), equation, letters });
     }
 
-    /// Puts it on the page.
+    /// Draws the paragraph and clears it.
     fn end(&mut self, ui: &mut Ui, block: Block) {
         let Self { job, equations } = std::mem::take(self);
         if job.is_empty() {
@@ -180,12 +180,12 @@ fn paint(ui: &Ui, equation: &Equation, corner: Pos2, colour: Color32) {
     ui.painter().image(equation.texture.id(), rect, whole, colour);
 }
 
-/// Who does not see an equation is told its TeX.
+/// Gives screen readers the TeX source of an equation.
 fn spoken(response: &Response, tex: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, tex));
 }
 
-/// On a plate of its own; a wide one is set smaller.
+/// Draws a display equation in a frame, at a smaller font size if it is wider than the column.
 fn equation_ui(ui: &mut Ui, tex: &str) {
     let palette = Palette::get(ui);
     plate_ui(ui, |ui| {

@@ -1,4 +1,5 @@
-//! The lessons that there are. A file in `assets/lessons` and a line in [`EMBEDDED`] add one.
+//! Embedded lessons and lessons in folders. An embedded lesson is a file in `assets/lessons` and a line in
+//! [`EMBEDDED`].
 
 use super::{Lesson, LessonError};
 use std::path::Path;
@@ -23,7 +24,7 @@ static EMBEDDED: &[(&str, &str)] = embedded![
     "10-a-fireflys-autopsy",
 ];
 
-/// The embedded lessons, in their order.
+/// The embedded lessons, in order.
 #[must_use]
 pub fn embedded() -> &'static [Arc<Lesson>] {
     static LESSONS: LazyLock<Vec<Arc<Lesson>>> = LazyLock::new(|| {
@@ -33,7 +34,7 @@ pub fn embedded() -> &'static [Arc<Lesson>] {
     &LESSONS
 }
 
-/// The lessons of a folder, by their names; and what cannot be read of it.
+/// Reads the lessons of a folder, sorted by file name; returns lessons and the errors of unreadable files.
 #[must_use]
 pub fn in_folder(folder: &Path) -> (Vec<Arc<Lesson>>, Vec<LessonError>) {
     let failed =

@@ -1,126 +1,126 @@
-//! Everything that the window can be asked to do. Widgets push commands; `logic` carries them out.
+//! Commands of the window. Widgets issue them, `logic` executes them.
 
 use super::{Arrangement, Source, WallEdit};
 use egui::ThemePreference;
 use majorant_core::scene::SceneDoc;
 use std::path::PathBuf;
 
-/// What a file is wanted for.
+/// Purpose of a file or folder that the user chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
     /// A scene to open.
     OpenScene,
-    /// A volume that becomes the medium's density, fitted to the origin.
+    /// A volume that becomes the medium's density, centred on the origin and scaled to length 1.
     OpenVolume,
-    /// The density file of the medium as it is placed.
+    /// Density file of the medium, whose placement is kept.
     DensityFile,
-    /// The temperature file of the medium's emission.
+    /// Temperature file of the medium's emission.
     TemperatureFile,
-    /// The table of the phase function.
+    /// Table of the phase function.
     PhaseTable,
-    /// The picture of the environment map with this index.
+    /// Image of the environment map, by index of the light.
     EnvironmentMap(usize),
-    /// Where to save the scene.
+    /// Destination of the scene file.
     SaveScene,
-    /// Where to write the linear picture.
+    /// Destination of the linear image.
     ExportExr,
-    /// Where to write the picture as it is shown.
+    /// Destination of the image as shown.
     ExportPng,
-    /// An EXR picture that errors are measured against.
+    /// EXR image that serves as the reference.
     Reference,
-    /// The folder that a report on the comparison is written into.
+    /// Destination folder of a report on the comparison.
     ExportReport,
 }
 
-/// How a question about unsaved changes was answered.
+/// Answer to the question about unsaved changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save, then go on.
+    /// Save and continue.
     Save,
-    /// Go on without saving.
+    /// Continue without saving.
     Discard,
-    /// Do not go on.
+    /// Abort the command.
     Cancel,
 }
 
-/// A request to the window.
+/// A command to the window.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Replaces the document by an edited one.
     Edit(Box<SceneDoc>),
     /// Edits the comparison.
     Wall(WallEdit),
-    /// Chooses the view that the method column edits.
+    /// Selects the view that the method column edits.
     SelectView(usize),
-    /// Shows the next view, or has the wall show one at a time.
+    /// Shows the next view, or switches to the arrangement with one view at a time.
     Flip,
-    /// Switches between an arrangement and side by side.
+    /// Switches between this arrangement and the grid.
     Arrange(Arrangement),
-    /// Whether a drag on a picture draws the box that numbers are about.
+    /// Toggles the tool that draws the region for statistics.
     ToggleBoxTool,
-    /// Shows or hides the numbers.
+    /// Shows or hides the dock with statistics.
     ToggleDock,
-    /// One more view, with the method of this document.
+    /// Adds a view with the method of this document.
     TryBeside(Box<SceneDoc>),
-    /// Shows the selected view beside what it should be.
+    /// Adds views without faults to compare the selected view with, and shows the ranking.
     HoldAgainstRight,
-    /// Takes planted mistakes out of the selected view.
+    /// Disables all faults of the selected view.
     TakeFaultOut,
-    /// Shows the samples of a pixel.
+    /// Picks the pixel whose samples are shown.
     Pick([usize; 2]),
     /// Replays one sample of a pixel.
     Replay([usize; 2], u64),
-    /// Shows numbers of this kind.
+    /// Shows the tab with this id.
     ShowTab(&'static str),
-    /// Opens a comparison that is set up already, by its name.
+    /// Opens a comparison preset by its name.
     OpenPreset(&'static str),
     /// Opens the lesson with this id, after asking about unsaved changes.
     OpenLesson(String),
-    /// Goes on in it, or back.
+    /// Moves by this number of steps within the open lesson.
     TurnLesson(isize),
-    /// Takes a prediction down.
+    /// Stores the answer to a prediction, by its index.
     AnswerLesson(usize),
-    /// Closes it; the scene stays.
+    /// Closes the open lesson and keeps its scene.
     CloseLesson,
-    /// Draws a slice of the majorant's cells over the pictures, or none.
+    /// Draws a slice of the majorant's cells over the views, at this depth from 0 (near) to 1, or none.
     ShowMajorants(Option<f32>),
-    /// Shows the slice in the middle, or hides it.
+    /// Shows the middle slice of the majorant's cells, or hides the slice.
     ToggleMajorants,
-    /// Measures what the majorant's factor costs in this scene.
+    /// Measures the cost of the majorant's factor for this scene.
     MeasureFactorCurve,
-    /// Ends that.
+    /// Cancels the measurement of the majorant's factor.
     CancelFactorCurve,
-    /// Larger type, for projectors.
+    /// Toggles large text, for projectors.
     ToggleLargeType,
-    /// Takes the last edit back.
+    /// Reverts the last edit.
     Undo,
-    /// Does it again.
+    /// Restores the last reverted edit.
     Redo,
     /// Opens a scene, after asking about unsaved changes.
     Open(Source),
-    /// Takes a file for what its extension says.
+    /// Opens a file according to its extension.
     OpenAny(PathBuf),
-    /// Asks for a file.
+    /// Opens the path entry for this purpose.
     Ask(Purpose),
-    /// A file was chosen.
+    /// Uses a chosen file for this purpose.
     Chosen(Purpose, PathBuf),
-    /// Closes whatever is being asked.
+    /// Closes the open dialog.
     CloseDialog,
-    /// The answer to the question about unsaved changes.
+    /// Answers the question about unsaved changes.
     Answer(Answer),
-    /// Saves to the scene's own file, or asks for one.
+    /// Saves to the scene's file, or opens the path entry if it has none.
     Save,
-    /// Pauses or goes on.
+    /// Pauses or resumes all views and the reference.
     TogglePause,
-    /// One pass while paused.
+    /// Renders one pass while paused.
     Step,
-    /// Starts over.
+    /// Restarts all views from sample 0.
     Restart,
-    /// Fits the picture to the canvas.
+    /// Fits the image to the canvas.
     Fit,
-    /// Shows the picture at this many points per pixel.
+    /// Shows the image at this many points per pixel.
     Zoom(f32),
-    /// Moves the exposure by stops.
+    /// Changes the exposure by this number of stops.
     Expose(f32),
     /// Shows or hides the left column.
     ToggleSceneColumn,
@@ -128,19 +128,19 @@ pub enum Command {
     ToggleMethodColumn,
     /// Shows or hides the list of shortcuts.
     ToggleShortcuts,
-    /// Lobes with a logarithmic or linear radius.
+    /// Toggles a logarithmic radius of phase function lobes.
     ToggleLogLobe,
     /// Shows the self-check.
     OpenSelfCheck,
-    /// Hides it; a check that runs is cancelled.
+    /// Hides the self-check and cancels a running check.
     CloseSelfCheck,
-    /// Starts the check that is chosen.
+    /// Starts the self-check with the chosen subject and effort.
     StartSelfCheck,
-    /// Ends the check that runs.
+    /// Cancels a running self-check.
     CancelSelfCheck,
     /// Switches the theme.
     Theme(ThemePreference),
-    /// Lists the grids of a file as the document names it.
+    /// Lists the grids of a file, given by its name in the document.
     ListGrids(String),
     /// Removes the message with this number.
     Dismiss(u64),

@@ -1,29 +1,29 @@
-//! The open scene: document, undo, where it came from.
+//! Open scene: document, undo history and source.
 
 use super::{History, WindowDoc, rebase, resolved};
 use majorant_core::io::{embedded, scene_file};
 use majorant_core::scene::{CompareDoc, SceneDoc};
 use std::path::{Path, PathBuf};
 
-/// Where a scene comes from.
+/// Source of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An empty new scene.
     New,
-    /// A scene that is part of the program, by its name.
+    /// An embedded scene, by its name.
     Embedded(String),
-    /// A file: a scene, a volume or an environment map, told apart by its extension.
+    /// A file: a scene, a volume or an image, distinguished by its extension.
     File(PathBuf),
 }
 
 impl Source {
-    /// The scene that opens when nothing else was asked for.
+    /// Default scene at the start of the program.
     #[must_use]
     pub fn first() -> Self {
         Self::Embedded("first-light".into())
     }
 
-    /// Takes the name of an embedded scene or else a path.
+    /// Parses the name of an embedded scene or a path; an existing file takes precedence.
     #[must_use]
     pub fn from_argument(argument: &str) -> Self {
         match embedded::find(argument) {
@@ -37,7 +37,7 @@ impl Source {
             Self::New => Ok(SceneDoc::default()),
             Self::Embedded(name) => {
                 let scene = embedded::find(name).ok_or_else(|| {
-                    format!("There is no embedded scene `{name}`: choose one in File › Embedded scenes.")
+                    format!("There is no embedded scene `{name}`. Choose one in File › Embedded scenes.")
                 })?;
                 scene_file::parse(scene.toml, name).map_err(|error| error.to_string())
             }
@@ -46,7 +46,7 @@ impl Source {
     }
 }
 
-/// The open scene.
+/// Open scene with its history and its file.
 #[derive(Clone, Debug)]
 pub struct Document {
     doc: SceneDoc,
@@ -60,7 +60,7 @@ impl Document {
     /// Opens a scene.
     ///
     /// # Errors
-    /// A sentence that names the file and what is wrong with it.
+    /// A message with the name of the file and the cause.
     pub fn open(source: &Source) -> Result<Self, String> {
         let doc = source.load()?;
         if let (Err(problem), Source::File(path)) = (WindowDoc::read(&doc), source) {
@@ -74,13 +74,13 @@ impl Document {
         Ok(Self { saved: doc.clone(), history: History::new(doc.clone()), doc, path, base })
     }
 
-    /// A new scene, when not even the first one could be opened.
+    /// Creates a default scene without a file.
     #[must_use]
     pub fn empty() -> Self {
         Self::new(SceneDoc::default())
     }
 
-    /// A scene that has no file yet.
+    /// Creates a document without a file.
     #[must_use]
     pub fn new(doc: SceneDoc) -> Self {
         Self {
@@ -92,37 +92,37 @@ impl Document {
         }
     }
 
-    /// The scene as it is now.
+    /// Current scene.
     #[must_use]
     pub fn doc(&self) -> &SceneDoc {
         &self.doc
     }
 
-    /// The scene as it was opened or last saved: what "reset" goes back to.
+    /// Scene as opened or last saved; the target of "reset".
     #[must_use]
     pub fn saved(&self) -> &SceneDoc {
         &self.saved
     }
 
-    /// The scene file, if it has one.
+    /// Scene file, if any.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.path.as_deref()
     }
 
-    /// The directory that relative file names start from.
+    /// Base directory of relative file names.
     #[must_use]
     pub fn base(&self) -> &Path {
         &self.base
     }
 
-    /// Whether there is something to save.
+    /// Whether there are changes to save; changes of the display arrangement do not count.
     #[must_use]
     pub fn is_modified(&self) -> bool {
         self.doc != self.saved && worth_saving(&self.doc) != worth_saving(&self.saved)
     }
 
-    /// The scene with absolute file names, as the session gets it.
+    /// Scene with absolute file names, for the session.
     #[must_use]
     pub fn resolved(&self) -> SceneDoc {
         resolved(&self.doc, &self.base)
@@ -133,41 +133,41 @@ impl Document {
         self.doc = doc;
     }
 
-    /// Makes the present state an undo step if it is settled; `true` while one is waiting.
+    /// Records the present state as an undo step if it is settled; `true` while a change is pending.
     pub fn observe(&mut self, settled: bool) -> bool {
         self.history.observe(&self.doc, settled)
     }
 
-    /// Takes the last edit back.
+    /// Reverts the last edit.
     pub fn undo(&mut self) {
         if let Some(doc) = self.history.undo(&self.doc) {
             self.doc = doc;
         }
     }
 
-    /// Does it again.
+    /// Restores the last reverted edit.
     pub fn redo(&mut self) {
         if let Some(doc) = self.history.redo(&self.doc) {
             self.doc = doc;
         }
     }
 
-    /// Whether there is an edit to take back.
+    /// Whether there is an edit to revert.
     #[must_use]
     pub fn can_undo(&self) -> bool {
         self.history.can_undo(&self.doc)
     }
 
-    /// Whether there is one to do again.
+    /// Whether there is an edit to restore.
     #[must_use]
     pub fn can_redo(&self) -> bool {
         self.history.can_redo(&self.doc)
     }
 
-    /// Writes the scene; file names follow it to its new directory.
+    /// Writes the scene and adapts relative file names to its new directory.
     ///
     /// # Errors
-    /// A sentence that names the file and what is wrong with it.
+    /// A message with the name of the file and the cause.
     pub fn save(&mut self, path: &Path) -> Result<(), String> {
         let path = absolute(path);
         let base = path.parent().map_or_else(working_directory, Path::to_owned);
@@ -182,8 +182,8 @@ impl Document {
     }
 }
 
-/// The document without what is only looked at: how views are arranged is saved with a scene, but nobody has
-/// to be asked about it.
+/// Returns the document without display state. The arrangement of views is saved with a scene, but does not
+/// count as an unsaved change.
 fn worth_saving(doc: &SceneDoc) -> SceneDoc {
     let mut doc = doc.clone();
     let compare =

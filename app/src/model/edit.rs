@@ -1,50 +1,52 @@
-//! What a comparison can be asked to become: pure edits of the document.
+//! Edits of a comparison, as pure functions of the document.
 
 use super::window::{Arrangement, Layer, Pair, WindowDoc};
 use majorant_core::scene::{
     ContenderDoc, Fairness, Fault, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc, WhenExceeded,
 };
 
-/// An edit of the comparison. Views count from 0.
+/// Edit of a comparison. Views count from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WallEdit {
-    /// So many views: new ones take the estimators that are not shown yet, surplus ones go from the end.
+    /// Sets the number of views. New views take estimators that are not shown yet; the last views are
+    /// removed.
     Count(usize),
-    /// One more view like this one.
+    /// Adds a copy of this view.
     Duplicate(usize),
-    /// One more view, with the method of this document.
+    /// Adds a view with the method of this document.
     AddView(Box<SceneDoc>),
-    /// Two more views of what this one should show: the same without its mistakes, and another technique.
+    /// Adds two correct views to compare this one with: its settings without faults, by Uni+NEE MIS and by
+    /// NEE.
     AgainstRight(usize),
-    /// This view goes; the last one stays.
+    /// Removes this view, unless it is the only one.
     Remove(usize),
-    /// These two change places.
+    /// Swaps two views.
     Swap(usize, usize),
-    /// How the views share the window.
+    /// Sets the arrangement of the views.
     Arrange(Arrangement),
-    /// The two views of a wipe or a difference.
+    /// Sets the two views of a wipe or a difference.
     Pair(Pair),
-    /// What is shown of every view.
+    /// Sets the displayed layer, by its id.
     Layer(String),
-    /// What every view gets as much of.
+    /// Sets the quantity that all views receive equally.
     Fairness(Fairness),
-    /// What errors are measured against.
+    /// Sets the reference of the errors.
     Reference(ReferenceDoc),
-    /// Which view speed-ups are relative to.
+    /// Sets the view that speed-ups are relative to.
     Baseline(usize),
-    /// The measure of error.
+    /// Sets the error measure, by its id.
     Measure(String),
-    /// The pixels that numbers are about.
+    /// Sets the region for statistics: x0, y0, x1, y1 in pixels, half open.
     Region(Option<[u32; 4]>),
-    /// Whether a view has a camera of its own.
+    /// Sets whether a view has a separate camera.
     OwnCamera(usize, bool),
-    /// Whether a view has an exposure of its own.
+    /// Sets whether a view has separate display settings.
     OwnDisplay(usize, bool),
-    /// Whether every view has a zoom of its own.
+    /// Sets whether every view has a separate zoom.
     OwnZoom(bool),
 }
 
-/// The document after an edit; one that makes no sense changes nothing.
+/// Returns the document after an edit; an invalid edit changes nothing.
 #[must_use]
 pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
     let mut doc = doc.clone();
@@ -113,7 +115,7 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
     doc
 }
 
-/// A further view: the first estimator that no view has, else the scene's once more, with its own seed.
+/// Creates a further view with a new seed and the first unused estimator, or else that of view A.
 fn next_contender(doc: &SceneDoc) -> ContenderDoc {
     let taken: Vec<String> =
         (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
@@ -126,7 +128,7 @@ fn next_contender(doc: &SceneDoc) -> ContenderDoc {
     next
 }
 
-/// What view A has of its own becomes that of another contender.
+/// Makes the settings of a contender those of view A.
 fn become_first(doc: &mut SceneDoc, first: ContenderDoc) {
     doc.estimator = first.estimator;
     doc.medium.majorant = first.majorant;
@@ -152,7 +154,7 @@ fn remove(doc: &mut SceneDoc, view: usize) {
     follow(doc, |at| if at > view { at - 1 } else { at });
 }
 
-/// What points at views follows them to their new places.
+/// Maps all references to views to their new indices.
 fn follow(doc: &mut SceneDoc, moved: impl Fn(usize) -> usize) {
     if let ReferenceDoc::View { view } = &mut doc.compare.reference {
         *view = moved(*view);
@@ -166,7 +168,7 @@ fn swap(doc: &mut SceneDoc, a: usize, b: usize) {
     if a > 0 {
         doc.compare.views.swap(a - 1, b - 1);
     } else if let Some(first) = doc.contender(0) {
-        // A camera of its own would become everybody's: the places change, the cameras stay.
+        // A separate camera would become that of the scene: views are swapped, cameras are not.
         let second = std::mem::replace(&mut doc.compare.views[b - 1], first);
         let (camera, view) = (second.camera.clone(), second.view.clone());
         become_first(doc, ContenderDoc { camera: None, view: None, ..second });
@@ -174,7 +176,7 @@ fn swap(doc: &mut SceneDoc, a: usize, b: usize) {
     }
 }
 
-/// Numbers of views that are gone point to those that are there.
+/// Resets references to views that no longer exist.
 fn keep_in_range(doc: &mut SceneDoc) {
     let count = doc.view_count();
     let compare = &mut doc.compare;

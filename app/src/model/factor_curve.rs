@@ -1,17 +1,17 @@
-//! The curve of the majorant's factor, measured in the background while its panel shows it grow.
+//! Cost and bias as a function of the majorant's factor, measured in the background.
 
 use crate::background::{Background, Reply};
 use majorant_core::bench::{FactorPoint, factor_curve};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
 
-/// One point, or why there is none.
+/// One point of the curve, or an error message.
 type Measured = Result<FactorPoint, String>;
 
-/// A curve, the scene that it describes, and the worker that measures it.
+/// A measured curve, its scene, and the worker that measures it.
 pub struct FactorCurve {
     points: Vec<FactorPoint>,
-    /// The scene that was measured, with a factor of 1: the curve does not depend on it.
+    /// Measured scene with a factor of 1, because the curve does not depend on the factor.
     of: Option<SceneDoc>,
     worker: Background<SceneDoc, Measured>,
     error: Option<String>,
@@ -30,7 +30,7 @@ fn measure(resolved: SceneDoc, reply: &Reply<'_, SceneDoc, Measured>) {
     }
 }
 
-/// Everything that the curve depends on.
+/// Returns the document reduced to everything that the curve depends on.
 fn subject(doc: &SceneDoc) -> SceneDoc {
     let mut doc = doc.clone();
     doc.medium.majorant.factor = 1.0;
@@ -46,31 +46,31 @@ fn subject(doc: &SceneDoc) -> SceneDoc {
 }
 
 impl FactorCurve {
-    /// The points so far.
+    /// Points measured so far.
     #[must_use]
     pub fn points(&self) -> &[FactorPoint] {
         &self.points
     }
 
-    /// Whether it is being measured.
+    /// Whether a measurement is in progress.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.worker.is_running()
     }
 
-    /// What went wrong.
+    /// Error of the last measurement.
     #[must_use]
     pub fn error(&self) -> Option<&str> {
         self.error.as_deref()
     }
 
-    /// Whether the curve is of this document.
+    /// Whether the curve belongs to this document.
     #[must_use]
     pub fn is_of(&self, doc: &SceneDoc) -> bool {
         self.of.as_ref().is_some_and(|of| *of == subject(doc))
     }
 
-    /// Measures anew. All files of `resolved` have absolute names; `wake` is called at every point.
+    /// Starts a measurement. All file names in `resolved` are absolute; `wake` is called after every point.
     pub fn start(&mut self, doc: &SceneDoc, resolved: SceneDoc, wake: impl Fn() + Send + Sync + 'static) {
         self.points.clear();
         self.of = Some(subject(doc));
@@ -79,13 +79,13 @@ impl FactorCurve {
         self.error = started.err().map(|error| format!("no thread could be started: {error}"));
     }
 
-    /// Ends a measurement in progress; its points stay.
+    /// Cancels a measurement in progress and keeps its points.
     pub fn cancel(&mut self) {
         self.poll();
         self.worker.cancel();
     }
 
-    /// Takes over the points measured since the last call.
+    /// Adds the points measured since the last call.
     pub fn poll(&mut self) {
         for measured in self.worker.poll() {
             match measured {
@@ -94,7 +94,7 @@ impl FactorCurve {
             }
         }
         if self.worker.has_failed() {
-            self.error = Some("it stopped on an internal error; measure again".into());
+            self.error = Some("the measurement stopped with an internal error; measure again".into());
         }
     }
 }
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_measured_of_one_scene_and_says_of_which() {
+    fn a_curve_belongs_to_the_scene_that_was_measured() {
         let doc = scene_file::parse(
             "majorant = 1\nlights = [{ kind = \"environment\" }]\nfilm = { width = 8, height = 8 }",
             "a cube",

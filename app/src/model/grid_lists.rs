@@ -1,19 +1,19 @@
-//! Lists of the grids in volume files.
+//! Lists of the grids of volume files.
 
 use std::collections::BTreeMap;
 
-/// Names of the grids in files, by the name that the document has for the file.
+/// Names of the grids of files, by the file's name in the document; `None` while a list is being read.
 #[derive(Clone, Debug, Default)]
 pub struct GridLists(BTreeMap<String, Option<Vec<String>>>);
 
 impl GridLists {
-    /// Whether the file was listed or is being listed.
+    /// Whether the file was listed, or is being listed.
     #[must_use]
     pub fn is_listed(&self, file: &str) -> bool {
         self.0.contains_key(file)
     }
 
-    /// The names, once they are known.
+    /// Names of the grids, once they are known and not empty.
     #[must_use]
     pub fn names(&self, file: &str) -> Option<&[String]> {
         self.0.get(file)?.as_deref().filter(|names| !names.is_empty())

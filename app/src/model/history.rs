@@ -1,9 +1,9 @@
-//! Undo by stable states, after egui's `Undoer`: a drag is one step, however many frames it took.
+//! Undo history of settled states, after egui's `Undoer`: a drag is one step, regardless of its frames.
 
-/// The states that undo and redo return to.
+/// History of the states for undo and redo.
 ///
-/// The caller shows it every state with [`History::observe`]; a state becomes a step only once it is
-/// *settled*, that is when no gesture is under way.
+/// The caller passes every state to [`History::observe`]; a state becomes a step only once it is *settled*,
+/// when no gesture is in progress.
 #[derive(Clone, Debug)]
 pub struct History<T> {
     committed: T,
@@ -12,17 +12,16 @@ pub struct History<T> {
 }
 
 impl<T: Clone + PartialEq> History<T> {
-    /// Steps that are kept.
+    /// Maximum number of undo steps.
     pub const CAPACITY: usize = 200;
 
-    /// A history that starts at `state`.
+    /// Creates a history that starts at `state`.
     #[must_use]
     pub fn new(state: T) -> Self {
         Self { committed: state, undo: Vec::new(), redo: Vec::new() }
     }
 
-    /// Takes note of the present state. Returns whether it differs from the last step and is still
-    /// waiting to become one.
+    /// Observes the present state. Returns whether it differs from the last step and is not settled yet.
     pub fn observe(&mut self, state: &T, settled: bool) -> bool {
         if *state == self.committed {
             return false;
@@ -38,7 +37,7 @@ impl<T: Clone + PartialEq> History<T> {
         false
     }
 
-    /// The state before `state`, if there is one; `state` becomes the next redo.
+    /// Returns the state before `state`, if any; `state` becomes the next redo.
     pub fn undo(&mut self, state: &T) -> Option<T> {
         self.observe(state, true);
         let previous = self.undo.pop()?;
@@ -46,7 +45,7 @@ impl<T: Clone + PartialEq> History<T> {
         Some(self.committed.clone())
     }
 
-    /// The state that the last undo left, if nothing was edited since.
+    /// Returns the state that the last undo reverted, if there was no edit since.
     pub fn redo(&mut self, state: &T) -> Option<T> {
         self.observe(state, true);
         let next = self.redo.pop()?;
@@ -54,13 +53,13 @@ impl<T: Clone + PartialEq> History<T> {
         Some(self.committed.clone())
     }
 
-    /// Whether [`History::undo`] would return something.
+    /// Whether [`History::undo`] would return a state.
     #[must_use]
     pub fn can_undo(&self, state: &T) -> bool {
         !self.undo.is_empty() || *state != self.committed
     }
 
-    /// Whether [`History::redo`] would return something.
+    /// Whether [`History::redo`] would return a state.
     #[must_use]
     pub fn can_redo(&self, state: &T) -> bool {
         !self.redo.is_empty() && *state == self.committed
@@ -85,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn undo_takes_an_unsettled_edit_and_an_edit_forgets_redo() {
+    fn undo_reverts_an_unsettled_edit_and_an_edit_clears_redo() {
         let mut history = History::new("a");
         assert!(history.can_undo(&"b"));
         assert_eq!(history.undo(&"b"), Some("a"));
@@ -96,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_steps_are_forgotten() {
+    fn the_oldest_steps_are_dropped() {
         let mut history = History::new(0);
         for value in 1..=History::<usize>::CAPACITY + 5 {
             history.observe(&value, true);

@@ -1,39 +1,39 @@
-//! How soon the window answers, measured where people feel it.
+//! Response times of the window.
 
 use std::collections::VecDeque;
 use std::time::Instant;
 
-/// Edits and frames that are remembered.
+/// Numbers of recent edits and frames that are kept.
 const EDITS: usize = 32;
 const FRAMES: usize = 120;
 
-/// The last and the usual of a few measured times, in seconds.
+/// Last, median and worst of recent times, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recent {
-    /// The newest.
+    /// Newest time.
     pub last: f64,
-    /// Half of those remembered are shorter.
+    /// Median of the recent times.
     pub median: f64,
-    /// The longest remembered.
+    /// Longest of the recent times.
     pub worst: f64,
 }
 
-/// See the [module](self).
+/// Recorder of recent latencies and frame times.
 #[derive(Debug, Default)]
 pub struct Latency {
-    /// The newest edit whose picture is still to be seen: its generation, and when it was made.
+    /// Newest edit whose image is not shown yet: its generation and its time.
     waiting: Option<(u64, Instant)>,
-    /// The newest edit.
+    /// Generation of the newest edit.
     edited: u64,
     visible: VecDeque<f64>,
     cancelled: VecDeque<f64>,
-    /// The generation whose cancellation was noted last.
+    /// Generation whose cancellation was recorded last.
     noted: u64,
     frames: VecDeque<f64>,
 }
 
 impl Latency {
-    /// An edit was handed to the session as this generation.
+    /// Records that an edit was submitted to the session as this generation.
     pub fn edited(&mut self, generation: u64) {
         if generation > self.edited {
             self.edited = generation;
@@ -41,7 +41,7 @@ impl Latency {
         }
     }
 
-    /// A frame shows a picture of this generation.
+    /// Records that a frame shows an image of this generation.
     pub fn shown(&mut self, generation: u64) {
         if let Some((wanted, since)) = self.waiting
             && generation >= wanted
@@ -51,7 +51,7 @@ impl Latency {
         }
     }
 
-    /// The session says how long a generation's predecessor went on.
+    /// Records the time for which the predecessor of a generation continued, as reported by the session.
     pub fn cancelled(&mut self, generation: u64, seconds: Option<f64>) {
         if let Some(seconds) = seconds
             && self.noted != generation
@@ -61,24 +61,24 @@ impl Latency {
         }
     }
 
-    /// The window's own part of a frame.
+    /// Records the time that the window spent on a frame, in seconds.
     pub fn frame(&mut self, seconds: f64) {
         keep(&mut self.frames, FRAMES, seconds);
     }
 
-    /// From an edit to the first frame that shows its picture.
+    /// Time from an edit to the first frame that shows its image.
     #[must_use]
     pub fn first_picture(&self) -> Option<Recent> {
         recent(&self.visible)
     }
 
-    /// From an edit to the moment when no worker traces the old scene any more.
+    /// Time from an edit until the last worker has stopped tracing the old scene.
     #[must_use]
     pub fn cancellation(&self) -> Option<Recent> {
         recent(&self.cancelled)
     }
 
-    /// The window's own part of a frame: reading the session, widgets, commands; without the rasteriser.
+    /// Time of the window per frame: reading the session, widgets and commands, without rasterisation.
     #[must_use]
     pub fn frames(&self) -> Option<Recent> {
         recent(&self.frames)
@@ -104,14 +104,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_edit_waits_for_its_own_picture_and_counts_once() {
+    fn an_edit_waits_for_its_image_and_counts_once() {
         let mut latency = Latency::default();
         assert_eq!(latency.first_picture(), None);
         latency.edited(3);
         latency.shown(2);
-        assert_eq!(latency.first_picture(), None, "an older picture is no answer");
+        assert_eq!(latency.first_picture(), None, "an older image does not count");
         latency.shown(3);
-        // Frames go on asking; an edit that was answered is not a new one.
+        // Later frames report the same edit, which counts only once.
         latency.edited(3);
         latency.shown(3);
         assert_eq!(latency.visible.len(), 1);
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn times_are_summed_up_and_forgotten() {
+    fn times_are_summarised_and_dropped() {
         let mut latency = Latency::default();
         for i in 0..200u16 {
             latency.frame(f64::from(i));

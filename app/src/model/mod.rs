@@ -1,4 +1,4 @@
-//! What the window edits and remembers; no widgets here.
+//! Data model of the window: document, commands, settings and measurements, without widgets.
 
 mod command;
 mod document;

@@ -1,28 +1,28 @@
-//! What becomes of a scene when its volume is replaced by a person's own.
+//! Adaptation of a scene to a volume of the user.
 
 use glam::Vec3;
 use majorant_core::io::volume::{ReadLimits, Volume, read_sparse_volume};
 use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
 use std::path::Path;
 
-/// The thickest line through a volume that was just opened gets this optical thickness at the
-/// wavelength of the strongest extinction: opaque, and still deep enough to look into.
+/// Optical thickness of the thickest line through an opened volume, at the wavelength of the strongest
+/// extinction: opaque, but with visible depth.
 const OPTICAL_THICKNESS: f32 = 12.0;
 
-/// What has to be known of a volume to set a scene up for it.
+/// Measurements of a volume that determine the scene setup.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     channels: usize,
-    /// Edge lengths, the longest being 1.
+    /// Edge lengths, relative to the longest.
     edges: [f32; 3],
     /// Density integrated along the thickest grid line, in units of the longest edge.
     thickest: f32,
 }
 
-/// Reads a volume as the renderer will, to be sure that it can be, and measures it.
+/// Reads and validates a volume like the renderer, and measures it.
 ///
 /// # Errors
-/// What is wrong with the file, and the cure.
+/// A message with the cause and the remedy.
 pub fn look_into(path: &Path) -> Result<Look, String> {
     let volume =
         read_sparse_volume(path, None, &ReadLimits::default(), &|_| ()).map_err(|e| e.to_string())?;
@@ -40,8 +40,8 @@ fn measure(volume: &Volume) -> Look {
     }
 }
 
-/// The scene with its density replaced by a file: fitted to length 1 about the origin, scaled to be
-/// neither invisible nor black, with camera and lights in the same arrangement about it as before.
+/// Returns the scene with its density replaced by a file: fitted to length 1 around the origin, scaled to be
+/// neither invisible nor black, with camera and lights in the same arrangement around it as before.
 #[must_use]
 pub fn with_volume(doc: &SceneDoc, file: String, look: &Look) -> SceneDoc {
     let mut doc = doc.clone();
@@ -68,7 +68,7 @@ pub fn with_volume(doc: &SceneDoc, file: String, look: &Look) -> SceneDoc {
     doc
 }
 
-/// Moves camera and lights so that what the camera looked at is the origin.
+/// Translates camera and lights so that the camera's target is the origin.
 fn move_about_origin(doc: &mut SceneDoc) {
     let target = doc.camera.target;
     let moved = |p: &mut [f32; 3]| p.iter_mut().zip(target).for_each(|(p, t)| *p -= t);
@@ -86,9 +86,9 @@ fn move_about_origin(doc: &mut SceneDoc) {
     moved(&mut doc.camera.target);
 }
 
-/// Moves the camera along its line of sight, as close as the whole box stays in the picture.
+/// Moves the camera along its line of sight, as close as the whole box stays in the image.
 fn frame(doc: &mut SceneDoc, edges: [f32; 3]) {
-    /// Corners of volumes are mostly empty: they may leave the picture by this much.
+    /// Factor by which the corners of the box, which are mostly empty, may exceed the image.
     const FILL: f32 = 1.06;
     let camera = &mut doc.camera;
     let origin = Vec3::from(camera.origin);
@@ -109,9 +109,9 @@ fn frame(doc: &mut SceneDoc, edges: [f32; 3]) {
     camera.origin = (back * distance).into();
 }
 
-/// A number that reads well.
+/// Rounds to two significant digits.
 fn two_digits(x: f32) -> f32 {
-    // By way of text, so that it is the number nearest to its two digits.
+    // Via text, which gives the number nearest to its two digits.
     format!("{x:.1e}").parse().unwrap_or(x)
 }
 
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tall_volume_stays_in_a_wide_picture() {
+    fn a_tall_volume_stays_in_a_wide_image() {
         let tall = Look { edges: [0.3, 1.0, 0.3], ..LOOK };
         let filled = with_volume(&SceneDoc::default(), "a.vdb".into(), &tall);
         let distance = filled.camera.origin[2] - 0.15;

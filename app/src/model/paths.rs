@@ -3,15 +3,15 @@
 use majorant_core::scene::SceneDoc;
 use std::path::{Path, PathBuf};
 
-/// The names that depend on where a scene lies.
+/// File names that depend on the location of the scene.
 fn files(doc: &mut SceneDoc) -> Vec<&mut String> {
     let mut files = doc.files_mut();
-    // `embedded:plume.vdb` is part of the program.
+    // Embedded files, as `embedded:plume.vdb`, have no location.
     files.retain(|file| !file.starts_with("embedded:"));
     files
 }
 
-/// The document with every file name absolute, as the session gets it.
+/// Returns the document with absolute file names, for the session.
 #[must_use]
 pub fn resolved(doc: &SceneDoc, base: &Path) -> SceneDoc {
     let mut doc = doc.clone();
@@ -21,8 +21,8 @@ pub fn resolved(doc: &SceneDoc, base: &Path) -> SceneDoc {
     doc
 }
 
-/// The document with names that were relative to `from` made relative to `to` where they lie below
-/// it, and absolute elsewhere: a scene saved beside its volumes can be moved together with them.
+/// Returns the document with file names relative to `from` converted to names relative to `to` where the
+/// files are below it, and to absolute names elsewhere: a scene can be moved together with its volumes.
 #[must_use]
 pub fn rebase(doc: &SceneDoc, from: &Path, to: &Path) -> SceneDoc {
     let mut doc = doc.clone();
@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn embedded_volumes_are_left_alone() {
+    fn embedded_volumes_are_unchanged() {
         let doc = with_volume("embedded:plume.vdb");
         assert_eq!(volume(&resolved(&doc, Path::new("/x"))), "embedded:plume.vdb");
         assert_eq!(volume(&rebase(&doc, Path::new("/x"), Path::new("/y"))), "embedded:plume.vdb");

@@ -1,14 +1,14 @@
-//! What the window remembers between runs.
+//! Settings of the window that persist between runs.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Preferences and recent files; stored by eframe beside the window's geometry.
+/// Preferences and recent files; stored by eframe together with the window's geometry.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// The chosen theme.
+    /// Chosen theme.
     pub theme: egui::ThemePreference,
     /// Scene files, newest first.
     pub recent: Vec<PathBuf>,
@@ -16,19 +16,19 @@ pub struct Settings {
     pub scene_column: bool,
     /// Whether the right column (method) is shown.
     pub method_column: bool,
-    /// Phase function lobes on a logarithmic radius.
+    /// Whether phase function lobes have a logarithmic radius.
     pub log_lobe: bool,
-    /// The slice of the majorant's cells that is drawn over the pictures, 0 nearest to 1 farthest; none if absent.
+    /// Depth of the slice of the majorant's cells over the views, from 0 (near) to 1 (far); hidden if absent.
     pub majorant_slice: Option<f32>,
-    /// Whether numbers are shown below the pictures, once there are several.
+    /// Whether the dock is shown below several views.
     pub dock: bool,
-    /// Whether they are shown below a single picture.
+    /// Whether the dock is shown below a single view.
     pub dock_alone: bool,
-    /// Which numbers.
+    /// Id of the open tab of the dock.
     pub tab: String,
-    /// How many steps of each lesson were taken, by its id.
+    /// Number of completed steps of each lesson, by its id.
     pub lessons: BTreeMap<String, usize>,
-    /// Larger type, for projectors.
+    /// Whether text is large, for projectors.
     pub large_type: bool,
 }
 
@@ -51,17 +51,17 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Where eframe's storage keeps them.
+    /// Key in eframe's storage.
     pub const KEY: &'static str = "majorant-settings";
     const RECENT: usize = 10;
 
-    /// Points of the interface over those of the screen.
+    /// Zoom factor of the interface: 1, or 1.4 with large text.
     #[must_use]
     pub fn zoom_factor(&self) -> f32 {
         if self.large_type { 1.4 } else { 1.0 }
     }
 
-    /// Puts a file at the head of the recent ones.
+    /// Moves a file to the head of the recent files.
     pub fn remember(&mut self, path: &Path) {
         self.recent.retain(|known| known != path);
         self.recent.insert(0, path.to_owned());

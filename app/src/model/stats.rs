@@ -1,39 +1,39 @@
-//! Rates and estimates that people read, derived from a session's state.
+//! Rates and estimated times for display, derived from the state of a view.
 
 use majorant_core::scene::RenderDoc;
 use majorant_core::session::ViewState;
 
-/// See the [module](self).
+/// Rates, progress and estimated times of a view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stats {
-    /// Samples per pixel in the newest picture.
+    /// Samples per pixel of the newest image.
     pub spp: u64,
-    /// Seconds of rendering.
+    /// Rendering time in seconds.
     pub seconds: f64,
-    /// Samples per pixel and second.
+    /// Samples per pixel per second.
     pub spp_per_second: Option<f64>,
     /// Look-ups of the medium per second.
     pub lookups_per_second: Option<f64>,
     /// Look-ups of the medium per path.
     pub lookups_per_path: Option<f64>,
-    /// Share of look-ups at which the extinction exceeded the majorant.
+    /// Fraction of look-ups at which the extinction exceeded the majorant.
     pub exceeded: Option<f64>,
-    /// Standard error as a share of the image's mean; measured only where it is a limit.
+    /// Standard error relative to the image mean; measured only if it is a limit.
     pub relative_error: Option<f64>,
-    /// Share of the way to the nearest limit, 0 to 1.
+    /// Progress to the nearest limit, from 0 to 1.
     pub progress: Option<f32>,
-    /// Time to the nearest limit.
+    /// Estimated time to the nearest limit, in seconds.
     pub eta_seconds: Option<f64>,
-    /// Samples that were not finite.
+    /// Number of non-finite samples.
     pub non_finite: u64,
 }
 
 impl Stats {
-    /// Reads them off a state and the limits that hold for it. `relative_error` is that of the state's picture, if one of
-    /// the limits asks for it.
+    /// Derives the statistics from a state and its limits. `relative_error` is that of the state's image, if
+    /// it is one of the limits.
     #[must_use]
     pub fn new(state: &ViewState, limits: &RenderDoc, relative_error: Option<f64>) -> Self {
-        // A picture of an older submission says nothing about this one.
+        // An image of an older submission is not evidence about this one.
         let Some(snapshot) = state.snapshot.as_ref().filter(|s| s.generation == state.generation) else {
             return Self::default();
         };
@@ -44,7 +44,7 @@ impl Stats {
         let by_samples = limits
             .spp
             .map(|limit| (spp / limit.max(1) as f64, spp_per_second.map(|rate| (limit as f64 - spp) / rate)));
-        // Seconds left, at the rate so far, from the share of the way.
+        // Remaining seconds at the rate so far, from the progress.
         let left = |progress: f64| (progress > 0.0).then(|| seconds * (1.0 / progress - 1.0));
         let by_time =
             limits.seconds.map(f64::from).map(|limit| (seconds / limit.max(1e-9), Some(limit - seconds)));
@@ -52,7 +52,7 @@ impl Stats {
             let progress = snapshot.cpu_seconds / f64::from(limit).max(1e-9);
             (progress, left(progress))
         });
-        // Errors fall with the square root of the time.
+        // Errors decrease with the square root of the time.
         let by_error = limits.relative_error.zip(relative_error).map(|(limit, error)| {
             let progress = if error.is_nan() { 0.0 } else { (f64::from(limit) / error).powi(2) };
             (progress, left(progress))
@@ -75,10 +75,10 @@ impl Stats {
     }
 }
 
-/// `12.3 M`: three significant digits and a metric prefix.
+/// Formats a number with three significant digits and a metric prefix, as `12.3 M`.
 #[must_use]
 pub fn count(value: f64) -> String {
-    // What was counted has no decimals.
+    // Integers are shown without decimals.
     if value.fract() == 0.0 && value.abs() < 1e4 {
         return format!("{value:.0}");
     }
@@ -96,7 +96,7 @@ pub fn count(value: f64) -> String {
     format!("{scaled:.decimals$}{prefix}")
 }
 
-/// `12.3 s`, `4 min 05 s` or `2 h 07 min`.
+/// Formats a duration in seconds, as `12.3 s`, `4 min 05 s` or `2 h 07 min`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     let whole = seconds.max(0.0).round() as u64;
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn an_old_picture_has_no_rates() {
+    fn an_old_image_has_no_rates() {
         let mut old = state(10, 2.0);
         old.generation = 4;
         assert_eq!(Stats::new(&old, &RenderDoc::default(), None), Stats::default());

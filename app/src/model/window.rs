@@ -1,39 +1,39 @@
-//! State of the window that is saved with a scene, under `[window]`.
+//! Display state of the window that is saved with a scene, under `[window]`.
 
 use majorant_core::scene::SceneDoc;
 use serde::{Deserialize, Serialize};
 
-/// State of the window: how the views are shown.
+/// Display state of the views.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WindowDoc {
-    /// How the views share the window.
+    /// Arrangement of the views.
     pub arrangement: Arrangement,
-    /// The two views of a wipe, a difference or a z-map.
+    /// Two views of a wipe, a difference or a z-map.
     pub pair: Pair,
-    /// What is shown of every view: `picture`, or the id of a map.
+    /// Displayed layer of every view: `picture`, or the id of a map.
     pub layer: Layer,
-    /// Whether every view has a zoom of its own.
+    /// Whether every view has a separate zoom.
     pub own_zoom: bool,
 }
 
 impl WindowDoc {
-    /// Reads the state that a scene file holds.
+    /// Reads the state from a scene document.
     ///
     /// # Errors
-    /// When a key is unknown or its value does not fit.
+    /// When a key is unknown or its value has the wrong type.
     pub fn read(doc: &SceneDoc) -> Result<Self, String> {
         let table = toml::Value::Table(doc.window.clone());
         table.try_into().map_err(|error: toml::de::Error| format!("[window]: {}", error.message()))
     }
 
-    /// The state of a document that was opened; what cannot be read is at its default.
+    /// Returns the state of an opened document, or the defaults if it cannot be read.
     #[must_use]
     pub fn of(doc: &SceneDoc) -> Self {
         Self::read(doc).unwrap_or_default()
     }
 
-    /// Changes the state of a document; values at their defaults are not stored.
+    /// Changes the state in a document; values equal to their defaults are not stored.
     pub fn edit(doc: &mut SceneDoc, change: impl FnOnce(&mut Self)) {
         let mut window = Self::of(doc);
         change(&mut window);
@@ -47,7 +47,7 @@ impl WindowDoc {
     }
 }
 
-/// Two different views, from 0.
+/// Two different views, counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Pair(pub usize, pub usize);
 
@@ -57,13 +57,13 @@ impl Default for Pair {
     }
 }
 
-/// The id of what is shown of a view.
+/// Id of the displayed layer of a view.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Layer(pub String);
 
 impl Layer {
-    /// The rendered picture.
+    /// Id of the rendered image.
     pub const PICTURE: &'static str = "picture";
 }
 
@@ -73,18 +73,18 @@ impl Default for Layer {
     }
 }
 
-/// How the views share the window.
+/// Arrangement of the views in the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Arrangement {
     /// Side by side.
     #[default]
     Grid,
-    /// Two over each other, with a divider.
+    /// Two views over each other, with a divider.
     Wipe,
-    /// One at a time.
+    /// One view at a time.
     Flip,
-    /// What two differ by.
+    /// Difference of two views.
     Difference,
 }
 

@@ -1,32 +1,32 @@
-//! What an edit costs: found by comparing documents, so that no widget has to remember it.
+//! Work that an edit requires, determined by comparing documents instead of by widgets.
 
 use majorant_core::scene::SceneDoc;
 use majorant_core::scene::keys::{self, Affects, Key};
 
-/// The least work that brings a picture up to date with an edited document.
+/// Minimum work that updates an image after an edit of its document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Work {
-    /// The picture is up to date; at most it is shown differently.
+    /// The image is up to date; at most its display changes.
     None,
-    /// Only the limits moved: rendering goes on or stops, and no sample is lost.
+    /// Only limits changed: rendering continues or stops, and all samples are kept.
     Limits,
-    /// The estimate itself changed: start over.
+    /// The estimate changed: rendering restarts.
     Render,
 }
 
-/// What turning `before` into `after` needs.
+/// Work required by the edit from `before` to `after`.
 #[must_use]
 pub fn work_after(before: &SceneDoc, after: &SceneDoc) -> Work {
     if before == after {
         return Work::None;
     }
-    // What cannot be written has no keys to compare.
+    // A document that cannot be serialised has no keys to compare.
     let Some(changed) = keys::changed(before, after) else { return Work::Render };
     let work = |key: &Key| match key.affects {
-        // Other views have pictures of their own.
+        // Other views have separate images.
         _ if key.path.starts_with("compare.") => Work::None,
         Affects::Scene | Affects::Estimate => Work::Render,
-        // No sample depends on them, but the threads are those that a render started with.
+        // No sample depends on the thread count, but it takes effect only when a render starts.
         Affects::Limits if key.path == "render.threads" => Work::Render,
         Affects::Limits => Work::Limits,
         Affects::View => Work::None,

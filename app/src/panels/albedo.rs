@@ -1,4 +1,4 @@
-//! Albedo by wavelength: the share of collisions that scatter.
+//! Albedo by wavelength: the fraction of real collisions that scatter.
 
 use super::{Column, Cx, Panel, extinction};
 use crate::widgets::{SpectrumField, hint, key, spectrum_editor};
@@ -6,7 +6,7 @@ use egui::Ui;
 use majorant_core::scene::CoefficientsDoc;
 use majorant_core::spectrum::Quantity;
 
-/// See the [module](self).
+/// Panel of the albedo spectrum.
 pub struct Albedo;
 
 impl Panel for Albedo {
@@ -38,7 +38,7 @@ impl Panel for Albedo {
             return;
         }
         if cx.draft.medium.coefficients.is_some() {
-            hint(ui, "It follows from the spectra under Extinction.");
+            hint(ui, "Derived from the spectra under Extinction.");
             return;
         }
         let field = SpectrumField {

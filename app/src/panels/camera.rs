@@ -4,13 +4,13 @@ use super::{Column, Cx, Panel};
 use crate::widgets::{Value, Vector, hint, key, row, whole};
 use egui::Ui;
 
-/// See the [module](self).
+/// Panel of the camera and the image size.
 pub struct Camera;
 
-/// The longest side that dragging reaches.
+/// Maximum side of the image that dragging reaches, in pixels.
 const MOST: u32 = 16_384;
 
-/// Sizes that are one click away.
+/// Common image sizes of the menu.
 const SIZES: &[[u32; 2]] = &[[320, 180], [640, 360], [960, 540], [1280, 720], [1920, 1080], [512, 512]];
 
 impl Panel for Camera {
@@ -42,17 +42,14 @@ impl Panel for Camera {
         if cx.draft.camera != cx.opened.camera && ui.small_button("↺  Camera as opened").clicked() {
             cx.draft.camera = cx.opened.camera.clone();
         }
-        hint(
-            ui,
-            "In the picture: drag orbits, Shift or right drag moves sideways, Ctrl + wheel comes closer.",
-        );
+        hint(ui, "In the image: drag orbits, Shift or right drag pans, Ctrl + wheel dollies.");
     }
 }
 
 fn size_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    row(ui, "Image size", "Pixels; the render starts over when they change", |ui, _| {
+    row(ui, "Image size", "Pixels; changes restart the render", |ui, _| {
         let film = &mut cx.draft.film;
-        // A cross, the button and three gaps.
+        // Less a cross, the button and three gaps.
         let width = ((ui.available_width() - 56.0) * 0.5).floor();
         whole(ui, key("film.width"), &mut film.width, MOST, width);
         ui.weak("×");

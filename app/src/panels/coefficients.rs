@@ -1,4 +1,4 @@
-//! How the medium's coefficients are given, and the spectra of each way.
+//! Parametrisation of the medium's coefficients, and the spectra of each parametrisation.
 
 use super::{Cx, phase};
 use crate::widgets::{SpectrumField, hint, key, segmented, spectrum_editor};
@@ -7,15 +7,11 @@ use majorant_core::scene::keys::Key;
 use majorant_core::scene::{CoefficientsDoc, CoefficientsKind, MediumDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
-/// Chooses how coefficients are given; the medium stays what it is.
+/// Chooses the parametrisation; the coefficients are converted.
 pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let mut kind = cx.draft.medium.coefficients_kind();
     let options = [
-        (
-            CoefficientsKind::ExtinctionAlbedo,
-            "σt, albedo",
-            "Extinction σt and the share α of it that is scattered",
-        ),
+        (CoefficientsKind::ExtinctionAlbedo, "σt, albedo", "Extinction σt and its scattered fraction α"),
         (
             CoefficientsKind::AbsorptionScattering,
             "σa, σs",
@@ -24,8 +20,8 @@ pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         (
             CoefficientsKind::MeanFreePathColour,
             "Path, colour",
-            "Mean free path 1/σt, and the share of diffuse light that a half-space reflects. The albedo follows from \
-             it by van de Hulst's formula and the phase function's mean cosine",
+            "Mean free path 1/σt, and the diffuse reflectance of a half-space. The albedo follows from it by van de \
+             Hulst's formula and the phase function's mean cosine",
         ),
     ];
     if segmented(ui, "Coefficients", &mut kind, &options) {
@@ -62,7 +58,7 @@ pub(super) fn spectra_ui(ui: &mut Ui, cx: &mut Cx<'_>) -> bool {
     true
 }
 
-/// The two spectra when the scene was opened, given the present way.
+/// Spectra of the opened scene, converted to the present parametrisation.
 fn opened(medium: &MediumDoc, as_now: &CoefficientsDoc, mean_cosine: f32) -> [SpectrumDoc; 2] {
     let kind = match as_now {
         CoefficientsDoc::AbsorptionScattering { .. } => CoefficientsKind::AbsorptionScattering,

@@ -1,4 +1,4 @@
-//! Where the medium's density comes from, how dense it is, and where its box stands.
+//! Density of the medium: source, scale and placement.
 
 use super::{Column, Cx, Panel, placement};
 use crate::model::{Command, GridLists, Purpose};
@@ -8,7 +8,7 @@ use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{DensityDoc, GridRef};
 use std::path::Path;
 
-/// See the [module](self).
+/// Panel of the density.
 pub struct Density;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -49,7 +49,7 @@ impl Panel for Density {
     }
 }
 
-/// How grids are kept and looked up, and what that costs.
+/// Storage and interpolation of grids, and the resulting memory and error.
 fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     if cx.draft.medium.density.grid().is_none() && cx.draft.medium.albedo_grid.is_none() {
         return;
@@ -57,19 +57,19 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let medium = &mut cx.draft.medium;
     row_of(ui, key("medium.precision"), |ui, _| {
         let options = [
-            (Precision::F32, "32", "As read"),
+            (Precision::F32, "32", "Single precision"),
             (Precision::F16, "16", "Half floats: relative error up to 1/2048"),
-            (Precision::U8, "8", "255 steps up to the largest value"),
+            (Precision::U8, "8", "255 steps up to the maximum"),
         ];
         segmented(ui, "Precision", &mut medium.precision, &options);
     });
     row_of(ui, key("medium.interpolation"), |ui, _| {
         let options = [
-            (Interpolation::Trilinear, "Trilinear", "Eight samples, weighted"),
+            (Interpolation::Trilinear, "Trilinear", "Weighted mean of eight voxels"),
             (
                 Interpolation::Stochastic,
                 "One sample",
-                "One of the eight at random: unbiased, cheaper, noisier",
+                "One of the eight voxels at random: unbiased, cheaper, noisier",
             ),
         ];
         segmented(ui, "Interpolation", &mut medium.interpolation, &options);
@@ -80,12 +80,12 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         let occupied = 100.0 * info.occupied_voxels as f64 / (x * y * z) as f64;
         let error = match info.storage_error {
             0.0 => String::new(),
-            error => format!(" Values are off by up to {error:.1e}."),
+            error => format!(" Values differ by up to {error:.1e}."),
         };
         hint(
             ui,
             &format!(
-                "{x} × {y} × {z} voxels, {occupied:.0} % of them not empty, in {megabytes:.1} MB. Density up to {:.3}, \
+                "{x} × {y} × {z} voxels, {occupied:.0} % not empty, {megabytes:.1} MB. Maximum density {:.3}, \
                  mean {:.3}.{error}",
                 info.max_density, info.mean_density
             ),
@@ -104,7 +104,11 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         let options = [
             (Kind::Uniform, "Uniform", "1 everywhere in a unit cube: a homogeneous medium"),
             (Kind::Grid, "Grid", "A scalar grid from an OpenVDB, .npy or .vol file"),
-            (Kind::Rgb, "RGB grid", "Density times extinction per colour; the extinction spectrum is unused"),
+            (
+                Kind::Rgb,
+                "RGB grid",
+                "Density × extinction per colour channel; the extinction spectrum is not used",
+            ),
         ];
         if segmented(ui, "Density source", &mut kind, &options) {
             let grid = density.grid().cloned().unwrap_or_default();
@@ -120,11 +124,12 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         let chosen = state.scene.as_ref().map(|info| info.density_grid.as_str());
         grid_ui(ui, ("density", chosen), grid, grids, commands, Purpose::DensityFile);
     } else {
-        hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to fill the box with it.");
+        hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to use it as density.");
     }
 }
 
-/// A grid in a file, for what `name` says; `chosen` is the grid that was read, `purpose` what a chosen file is for.
+/// Shows file and grid of the quantity `name`; `chosen` is the grid that was read, `purpose` that of a chosen
+/// file.
 pub(super) fn grid_ui(
     ui: &mut Ui,
     (name, chosen): (&str, Option<&str>),
@@ -147,7 +152,7 @@ pub(super) fn grid_ui(
         }
         return;
     };
-    row(ui, "Grid", "Which of the file's grids is used", |ui, label| {
+    row(ui, "Grid", "Grid of the file to use", |ui, label| {
         let by_default = match chosen {
             Some(chosen) if names.iter().any(|name| name == chosen) => format!("by default: {chosen}"),
             _ => "by default".into(),

@@ -1,11 +1,11 @@
-//! How linear radiance becomes display colour; never part of the estimate.
+//! Conversion of linear radiance to display colours; does not affect the estimate.
 
 use super::{Column, Cx, Panel};
 use crate::widgets::{Value, key, optional_key, row_of, segmented};
 use egui::Ui;
 use majorant_core::scene::ToneCurve;
 
-/// See the [module](self).
+/// Panel of exposure and tone mapping.
 pub struct Display;
 
 impl Panel for Display {
@@ -31,9 +31,9 @@ impl Panel for Display {
             .show(ui);
         row_of(ui, key("view.tone"), |ui, _| {
             let options = [
-                (ToneCurve::Linear, "Linear", "Clips at 1: what you see is what was computed"),
-                (ToneCurve::Reinhard, "Reinhard", "x / (1 + x) by luminance"),
-                (ToneCurve::Filmic, "Filmic", "Soft shoulder and toe, Narkowicz's fit of ACES"),
+                (ToneCurve::Linear, "Linear", "Clips at 1, otherwise shows the computed radiance"),
+                (ToneCurve::Reinhard, "Reinhard", "x / (1 + x), by luminance"),
+                (ToneCurve::Filmic, "Filmic", "Soft shoulder and toe: Narkowicz's fit of ACES"),
             ];
             segmented(ui, "Tone curve", &mut view.tone, &options);
         });

@@ -1,4 +1,4 @@
-//! Emission: how hot the medium is, and how it glows.
+//! Thermal emission of the medium: temperature and scale.
 
 use super::{Column, Cx, Panel, density};
 use crate::model::Purpose;
@@ -6,7 +6,7 @@ use crate::widgets::{Value, format_number, hint, key, row, segmented, switch};
 use egui::Ui;
 use majorant_core::scene::{DensityDoc, EmissionDoc, GridRef};
 
-/// See the [module](self).
+/// Panel of the emission.
 pub struct Emission;
 
 impl Panel for Emission {
@@ -36,11 +36,11 @@ impl Panel for Emission {
         let mut glows = draft.medium.emission.is_some();
         switch(
             ui,
-            "Glows",
-            "Medium glows",
+            "Thermal",
+            "Thermal emission",
             &mut glows,
-            "as a black body",
-            "What absorbs emits, by its temperature",
+            "emission as a black body",
+            "Thermal emission at the temperature of the medium; requires absorption",
         );
         if !glows {
             draft.medium.emission = None;
@@ -50,15 +50,15 @@ impl Panel for Emission {
         let density = draft.medium.density.clone();
         let emission = draft.medium.emission.get_or_insert_with(|| initial.clone());
         let mut by_grid = emission.temperature.is_some();
-        row(ui, "Temperature", "Where it comes from", |ui, _| {
+        row(ui, "Temperature", "Source of the temperature", |ui, _| {
             let options = [
                 (false, "Uniform", "The same everywhere in the box"),
-                (true, "Grid", "A scalar grid, laid over the density"),
+                (true, "Grid", "A scalar grid over the same box as the density"),
             ];
             segmented(ui, "Temperature", &mut by_grid, &options);
         });
         if by_grid {
-            // The file of the density usually has one.
+            // The density file usually contains a temperature grid.
             let grid = emission.temperature.get_or_insert_with(|| match &density {
                 DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) => {
                     GridRef { file: grid.file.clone(), grid: Some("temperature".into()) }
@@ -74,7 +74,11 @@ impl Panel for Emission {
             .opened(initial.kelvin)
             .within(0.001..=15_000.0)
             .logarithmic()
-            .tip(if by_grid { "Kelvins of a temperature of 1" } else { "How hot it is" })
+            .tip(if by_grid {
+                "Kelvins per unit of the temperature grid"
+            } else {
+                "Temperature of the medium"
+            })
             .show(ui);
         Value::of(key("medium.emission.scale"), &mut emission.scale)
             .opened(initial.scale)
@@ -82,6 +86,9 @@ impl Panel for Emission {
             .logarithmic()
             .named("Emission scale")
             .show(ui);
-        hint(ui, "Radiance σa(λ) B(λ, T): only what absorbs glows. At an albedo of 1 nothing does.");
+        hint(
+            ui,
+            "Emission coefficient σa(λ) B(λ, T): only absorbing media emit; at an albedo of 1 there is no emission.",
+        );
     }
 }

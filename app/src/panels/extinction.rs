@@ -1,4 +1,4 @@
-//! Extinction by wavelength: where the medium is coloured.
+//! Extinction by wavelength.
 
 use super::{Column, Cx, Panel, coefficients};
 use crate::widgets::{SpectrumField, hint, key, spectrum_editor};
@@ -6,10 +6,10 @@ use egui::Ui;
 use majorant_core::scene::{CoefficientsDoc, DensityDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
-/// See the [module](self).
+/// Panel of the extinction and the parametrisation of coefficients.
 pub struct Extinction;
 
-/// A spectrum in a few words.
+/// Short description of a spectrum.
 pub(super) fn in_words(doc: &SpectrumDoc) -> String {
     match doc {
         SpectrumDoc::Constant(value) => crate::widgets::format_number(f64::from(*value)),
@@ -47,7 +47,7 @@ impl Panel for Extinction {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         coefficients::kind_ui(ui, cx);
         if matches!(cx.draft.medium.density, DensityDoc::RgbGrid(_)) {
-            hint(ui, "The RGB grid carries its own extinction; this spectrum is unused.");
+            hint(ui, "The RGB grid contains the extinction; this spectrum is not used.");
         }
         if coefficients::spectra_ui(ui, cx) {
             return;

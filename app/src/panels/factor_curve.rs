@@ -1,4 +1,4 @@
-//! What the majorant's factor costs, as a plot: look-ups, noise and bias against it.
+//! Plots of look-ups, variance and bias against the majorant's factor.
 
 use super::Cx;
 use crate::model::Command;
@@ -10,17 +10,17 @@ use egui_plot::{
 };
 use majorant_core::bench::{FACTORS, FactorPoint};
 
-const NOTHING: &str = "Nothing to compare: the picture is black, or has no noise at all.";
+const NOTHING: &str = "Nothing to compare: the image is black, or has no noise.";
 const HEIGHT: f32 = 120.0;
-/// What is worse is drawn at the edge: it would flatten everything else.
+/// Larger ratios are clipped, because they would compress the plot.
 const MOST_RATIO: f64 = 1e3;
 const MOST_BIAS: f64 = 20.0;
-/// Room for the numbers at the side, so that both plots begin at the same place.
+/// Minimum width of the value axis, so that both plots are aligned.
 const AXIS: f32 = 34.0;
 
-/// The plots, and the button that has them measured.
+/// Shows the plots and the button that starts a measurement.
 pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    CollapsingHeader::new(RichText::new("Cost and truth by factor").small()).show_unindented(ui, |ui| {
+    CollapsingHeader::new(RichText::new("Cost and bias by factor").small()).show_unindented(ui, |ui| {
         let curve = cx.factor_curve;
         ui.horizontal(|ui| {
             let (text, command) = match curve.is_running() {
@@ -29,7 +29,7 @@ pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             };
             if ui
                 .add(Button::new(text))
-                .on_hover_text("A small picture of this scene at every factor")
+                .on_hover_text("Renders a small image of this scene at every factor")
                 .clicked()
             {
                 cx.commands.push(command);
@@ -49,16 +49,16 @@ pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         }
         let points = curve.points();
         if !points.is_empty() && !curve.is_of(cx.draft) {
-            hint(ui, "What was measured is of another scene or estimator, and is shown again with that: measure anew.");
+            hint(ui, "The measurement belongs to another scene or estimator, and is shown again with that one. Measure again.");
             return;
         }
         let Some(one) = points.iter().find(|p| p.factor == 1.0) else {
             if points.is_empty() {
-                hint(ui, "Above 1 look-ups are wasted on null collisions; below 1 noise or bias comes in.");
+                hint(ui, "Above 1, look-ups are spent on null collisions; below 1, noise or bias increases.");
             }
             return;
         };
-        // Ratios to nothing are not numbers.
+        // Ratios to zero are undefined.
         if !(one.variance > 0.0 && one.variance.is_finite()) {
             hint(ui, NOTHING);
             return;
@@ -73,14 +73,14 @@ fn log2(factor: f32) -> f64 {
     f64::from(factor).log2()
 }
 
-/// A small plot over the logarithm of the factor; what its lines are is said above it. `value` is the number that a
-/// height stands for.
+/// Creates a small plot over the logarithm of the factor; its legend is shown above. `value` converts a
+/// height to the displayed number.
 fn plot(id: &str, value: fn(f64) -> f64) -> Plot<'static> {
     Plot::new(id.to_owned())
         .height(HEIGHT)
         .include_x(log2(FACTORS[0]) - 0.2)
         .include_x(log2(FACTORS[FACTORS.len() - 1]) + 0.2)
-        // Every power of two has its line and its name.
+        // A labelled grid line at every power of two.
         .x_grid_spacer(uniform_grid_spacer(|_| [1.0, 1.0, 1.0]))
         .custom_x_axes(vec![
             AxisHints::new_x()
@@ -99,7 +99,7 @@ fn plot(id: &str, value: fn(f64) -> f64) -> Plot<'static> {
         .allow_zoom(false)
 }
 
-/// The names of lines, in their colours.
+/// Shows a legend: names in the colours of their lines.
 fn names(ui: &mut Ui, names: &[(&str, Color32)]) {
     ui.add_space(UNIT);
     ui.horizontal_wrapped(|ui| {
@@ -109,7 +109,7 @@ fn names(ui: &mut Ui, names: &[(&str, Color32)]) {
     });
 }
 
-/// Marks at 1, 2 and 5 times the powers of ten, where an axis holds logarithms.
+/// Grid marks at 1, 2 and 5 times the powers of ten, for an axis of logarithms.
 fn one_two_five(input: GridInput) -> Vec<GridMark> {
     let mark = |power: i32, digit: f64| GridMark {
         value: (digit * 10f64.powi(power)).log10(),
@@ -120,7 +120,7 @@ fn one_two_five(input: GridInput) -> Vec<GridMark> {
     marks.filter(|mark| (from..=to).contains(&mark.value)).collect()
 }
 
-/// Look-ups, variance and their product over what they are at factor 1.
+/// Plots look-ups, variance and their product, relative to factor 1.
 fn relative_ui(ui: &mut Ui, points: &[FactorPoint], one: &FactorPoint, factor: f32) {
     type Quantity = (&'static str, fn(&FactorPoint) -> f64);
     const QUANTITIES: [Quantity; 3] = [
@@ -143,7 +143,7 @@ fn relative_ui(ui: &mut Ui, points: &[FactorPoint], one: &FactorPoint, factor: f
     });
 }
 
-/// The mean's error, with the band in which 95 of 100 unbiased estimates stay.
+/// Plots the error of the mean, with the band that contains 95 % of unbiased estimates.
 fn bias_ui(ui: &mut Ui, points: &[FactorPoint], factor: f32) {
     let palette = Palette::get(ui);
     let (weak, error) = (palette.weak, palette.error);

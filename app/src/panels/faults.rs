@@ -1,4 +1,4 @@
-//! What goes wrong: mistakes of real renderers, planted on purpose, and the lab's own means to find them.
+//! Deliberate faults: mistakes of real renderers, and the tools of the lab that detect them.
 
 use super::{Column, Cx, Panel};
 use crate::model::Command;
@@ -8,10 +8,10 @@ use egui::{Color32, RadioButton, RichText, Ui};
 use majorant_core::scene::{Fault, SceneDoc, WhenExceeded};
 use majorant_core::transmittance::TransmittanceKind;
 
-/// See the [module](self).
+/// Panel of the faults.
 pub struct Faults;
 
-/// A choice of the scene that is biased without being a mistake in the code.
+/// A biased setting of the scene that is offered as a fault, although the code is correct.
 struct Foil {
     name: &'static str,
     summary: &'static str,
@@ -21,8 +21,8 @@ struct Foil {
 
 const FOILS: [Foil; 2] = [
     Foil {
-        name: "A majorant that is cut off",
-        summary: "Half the largest extinction, and everything above it clamped: the medium is thinner than it should be.",
+        name: "Clamped majorant",
+        summary: "Half the largest extinction as majorant, with extinction clamped to it: the medium is too thin.",
         is_on: |doc| {
             doc.medium.majorant.factor < 1.0 && doc.medium.majorant.when_exceeded == WhenExceeded::Clamp
         },
@@ -33,8 +33,8 @@ const FOILS: [Foil; 2] = [
         },
     },
     Foil {
-        name: "Ray marching by steps",
-        summary: "Connections add up extinction at even steps: e to the minus of a noisy sum is too bright on average.",
+        name: "Ray marching",
+        summary: "Connections sum extinction at equidistant steps: e to the minus of a noisy sum is too bright on average.",
         is_on: |doc| doc.estimator.id == "nee" && doc.estimator.transmittance == "marching",
         set: |doc, on| {
             let id = if on { "marching" } else { TransmittanceKind::ALONG_THE_PATH.entry().id };
@@ -46,7 +46,7 @@ const FOILS: [Foil; 2] = [
     },
 ];
 
-/// What is planted in a document, if anything is.
+/// Name of the enabled fault of a document, if any.
 #[must_use]
 pub fn planted(doc: &SceneDoc) -> Option<&'static str> {
     let fault = doc.estimator.fault.entry().filter(|_| doc.estimator.id == "uni-nee-mis");
@@ -54,7 +54,7 @@ pub fn planted(doc: &SceneDoc) -> Option<&'static str> {
     fault.map(|entry| entry.name).or_else(foil)
 }
 
-/// Takes out whatever is planted.
+/// Disables all faults of a document.
 pub fn remove(doc: &mut SceneDoc) {
     doc.estimator.fault = Fault::None;
     for foil in &FOILS {
@@ -78,7 +78,7 @@ impl Panel for Faults {
     }
 
     fn summary(&self, cx: &Cx<'_>) -> String {
-        planted(cx.draft).map_or("nothing is planted".into(), |_| "planted".into())
+        planted(cx.draft).map_or("none enabled".into(), |_| "fault enabled".into())
     }
 
     fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
@@ -87,7 +87,10 @@ impl Panel for Faults {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let palette = Palette::get(ui);
-        hint(ui, "Mistakes of real renderers, made again on purpose. Can you see them? The lab can.");
+        hint(
+            ui,
+            "Mistakes of real renderers, reproduced deliberately. Each is detected by comparison with a correct view.",
+        );
         let now = planted(cx.draft);
         let mut chosen = None;
         let mut line = |ui: &mut Ui, name: &'static str, summary: &str, thread: &str| {
@@ -118,9 +121,9 @@ impl Panel for Faults {
             }
         }
         if let Some(name) = planted(cx.draft) {
-            callout(ui, palette.error, &format!("Planted: {name}. The picture is wrong."));
-            let prove = ui.button("Hold it against the right one");
-            let tip = "Two more views, of the same light without the mistake; wait for the verdict";
+            callout(ui, palette.error, &format!("Fault enabled: {name}. The image is incorrect."));
+            let prove = ui.button("Compare with the correct image");
+            let tip = "Adds two views of the same scene without the fault; their samples decide the verdict";
             if prove.on_hover_text(tip).clicked() {
                 cx.commands.push(Command::HoldAgainstRight);
             }
@@ -144,12 +147,12 @@ mod tests {
     use majorant_core::scene::{DensityDoc, GridRef};
 
     #[test]
-    fn everything_that_can_be_planted_is_named_biased_and_taken_out_again() {
+    fn every_fault_is_named_and_biased_and_can_be_disabled() {
         let names =
             Fault::ALL.iter().filter_map(|f| f.entry()).map(|e| e.name).chain(FOILS.iter().map(|f| f.name));
         for name in names {
             let mut doc = SceneDoc::default();
-            // Marching is exact through constant extinction.
+            // Ray marching is exact in constant extinction.
             let cloud = GridRef { file: "embedded:cloud.vdb".into(), grid: None };
             doc.medium.density = DensityDoc::Grid(cloud);
             plant(&mut doc, name);

@@ -1,4 +1,4 @@
-//! Every field of every kind of light.
+//! Editors for the fields of every kind of light.
 
 use crate::model::{Command, Purpose};
 use crate::widgets::{SpectrumField, Value, Vector, key, path_field, row, spectrum_editor, switch};
@@ -7,7 +7,7 @@ use majorant_core::scene::LightDoc;
 use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
-/// Shows the fields of a light. `opened` is the same light in the opened scene, if it was there.
+/// Shows the fields of a light. `opened` is the same light in the opened scene, if it exists.
 pub fn light_ui(
     ui: &mut Ui,
     light: &mut LightDoc,
@@ -21,7 +21,7 @@ pub fn light_ui(
     let opened = opened.unwrap_or(&template);
     if let LightDoc::EnvironmentMap { file, .. } = light {
         let key = key("lights.*.file");
-        if path_field(ui, key.label, &format!("{name} picture"), "sky.exr", file, key.tip) {
+        if path_field(ui, key.label, &format!("{name} image"), "sky.exr", file, key.tip) {
             commands.push(Command::Ask(Purpose::EnvironmentMap(index)));
         }
     }
@@ -29,7 +29,7 @@ pub fn light_ui(
     emission_ui(ui, &name, light, opened, &template);
 }
 
-/// Where it is and how large: the fields that differ between kinds. The three lights are of one kind.
+/// Shows position and size, which differ between kinds. All three lights are of the same kind.
 fn geometry_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc, template: &LightDoc) {
     use LightDoc::{EnvironmentMap, Rectangle, Sphere, Sun};
     let place = |ui: &mut Ui, key: &'static Key, now: &mut [f32; 3], was, default| {
@@ -82,7 +82,7 @@ fn geometry_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
     }
 }
 
-/// How much it emits: what all kinds share.
+/// Shows the emission, which all kinds share.
 fn emission_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc, template: &LightDoc) {
     let (scale_before, spectrum_before) = emission(opened);
     let (scale_default, _) = emission(template);

@@ -1,4 +1,4 @@
-//! The lights: a list to which kinds are added from their templates.
+//! List of lights, to which lights are added from templates.
 
 use super::{Column, Cx, Panel, light_fields};
 use crate::model::{Command, Purpose};
@@ -8,7 +8,7 @@ use egui::collapsing_header::CollapsingState;
 use egui::{Align, Button, Color32, Layout, RichText, Ui};
 use majorant_core::scene::LightDoc;
 
-/// See the [module](self).
+/// Panel of the lights.
 pub struct Lights;
 
 impl Panel for Lights {
@@ -54,25 +54,25 @@ impl Panel for Lights {
             None => {}
         }
         add_ui(ui, "Add light", LightDoc::templates(), |light| {
-            // A map without its picture cannot be rendered: ask for one at once.
+            // A map without an image cannot be rendered, so that the path entry opens immediately.
             if matches!(light, LightDoc::EnvironmentMap { .. }) {
                 cx.commands.push(Command::Ask(Purpose::EnvironmentMap(cx.draft.lights.len())));
             }
             cx.draft.lights.push(light);
         });
         if cx.draft.lights.len() > 1 {
-            hint(ui, "Each sample picks one light; all of them are seen by the camera if visible.");
+            hint(ui, "Each connection samples one light; the camera sees all visible lights.");
         }
     }
 }
 
-/// What the buttons of a list item ask for.
+/// Change requested by the buttons of a list item.
 pub(super) enum Change {
     Duplicate,
     Remove,
 }
 
-/// A menu of templates.
+/// Shows a menu of templates.
 pub(super) fn add_ui<T>(ui: &mut Ui, name: &str, templates: Vec<(&'static str, T)>, mut add: impl FnMut(T)) {
     ui.menu_button(format!("+  {name}"), |ui| {
         for (kind, template) in templates {
@@ -84,7 +84,7 @@ pub(super) fn add_ui<T>(ui: &mut Ui, name: &str, templates: Vec<(&'static str, T
     });
 }
 
-/// The heading of a list item with its buttons, and its body while it is open.
+/// Shows the heading of a list item with its buttons, and its body while it is open.
 pub(super) fn card_ui(
     ui: &mut Ui,
     salt: &str,

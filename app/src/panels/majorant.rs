@@ -1,4 +1,4 @@
-//! The majorant: what free flights are sampled from. It costs or saves time, not truth — unless clamped.
+//! The majorant, from which free flights are sampled. It affects cost and noise, and bias only if exceeded.
 
 use super::factor_curve::factor_curve_ui;
 use super::{Column, Cx, Panel};
@@ -10,7 +10,7 @@ use crate::widgets::{
 use egui::{Color32, Sense, Slider, Ui, vec2};
 use majorant_core::scene::{MajorantDoc, WhenExceeded};
 
-/// See the [module](self).
+/// Panel of the majorant.
 pub struct Majorant;
 
 impl Panel for Majorant {
@@ -58,12 +58,17 @@ impl Panel for Majorant {
             tightness_ui(ui, info.tightness);
         }
         if let Some(lookups) = cx.stats.lookups_per_path {
-            row(ui, "Look-ups", "Look-ups of the medium per path: what tighter majorants save", |ui, _| {
-                ui.monospace(format!("{lookups:.2} per path"));
-            });
+            row(
+                ui,
+                "Look-ups",
+                "Look-ups of the medium per path, which tighter majorants reduce",
+                |ui, _| {
+                    ui.monospace(format!("{lookups:.2} per path"));
+                },
+            );
         }
         if let Some(exceeded) = cx.stats.exceeded.filter(|share| *share > 0.0) {
-            row(ui, "Exceeded", "Share of look-ups at which σt was larger than μ", |ui, _| {
+            row(ui, "Exceeded", "Fraction of look-ups at which σt exceeded μ", |ui, _| {
                 let colour = Palette::get(ui).warning;
                 ui.colored_label(
                     colour,
@@ -74,7 +79,7 @@ impl Panel for Majorant {
         if let Some(violations) = cx.state.probe.as_ref().map(|probe| probe.violations()) {
             let count = violations.exceeded_cells();
             if count > 0 {
-                let tip = "Cells in which a flight has found σt larger than μ since μ was set or raised. M shows them";
+                let tip = "Cells in which a flight has found σt > μ since μ was set or raised. M shows them";
                 row(ui, "Violations", tip, |ui, _| {
                     let all = violations.cells().pow(3);
                     ui.colored_label(
@@ -90,12 +95,12 @@ impl Panel for Majorant {
         switch(ui, shared.label, "Shared majorant", &mut majorant.shared, "by all wavelengths", shared.tip);
         row_of(ui, key("medium.majorant.when_exceeded"), |ui, _| {
             let options = [
-                (WhenExceeded::Weighted, "Weighted", "σn = μ − σt turns negative; the weights stay right"),
-                (WhenExceeded::Clamp, "Clamp", "σn is held at 0: the textbook mistake, biased"),
+                (WhenExceeded::Weighted, "Weighted", "σn = μ − σt becomes negative; weights remain unbiased"),
+                (WhenExceeded::Clamp, "Clamp", "σn is clamped to 0: a common mistake, biased"),
                 (
                     WhenExceeded::Progressive,
                     "Raise",
-                    "Clamped, and bounds are raised to what was found after 1, 2, 4, 8, … samples: the error vanishes",
+                    "Clamped, and bounds are raised to the extinctions found, after 1, 2, 4, 8, … samples: the error vanishes",
                 ),
             ];
             segmented(ui, "Where exceeded", &mut majorant.when_exceeded, &options);
@@ -110,19 +115,19 @@ impl Panel for Majorant {
             }
             None => hint(
                 ui,
-                "Null collisions fill σt up to μ: σn = μ − σt. They change the cost, not the picture.",
+                "Null collisions fill σt up to μ: σn = μ − σt. They change the cost, not the expected image.",
             ),
         }
         factor_curve_ui(ui, cx);
     }
 }
 
-/// The slice of cells that is drawn over the pictures.
+/// Shows the setting of the cell slice that is drawn over the views.
 fn slice_ui(ui: &mut Ui, slice: Option<f32>, there: bool, commands: &mut Vec<Command>) {
-    let tip = "Draws a slice of the cells over the picture, coloured by tightness  (M)";
+    let tip = "Draws a slice of the cells over the image, coloured by tightness  (M)";
     row(ui, "Cells", tip, |ui, _| {
         let mut shown = slice.is_some();
-        let text = if there { "show" } else { "show: a grid has some" };
+        let text = if there { "show" } else { "show (grids only)" };
         if ui.checkbox(&mut shown, text).accessible_name("Show majorant cells").on_hover_text(tip).clicked() {
             commands.push(Command::ToggleMajorants);
         }
@@ -130,7 +135,7 @@ fn slice_ui(ui: &mut Ui, slice: Option<f32>, there: bool, commands: &mut Vec<Com
             let mut moved = depth;
             ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(40.0);
             let slider = Slider::new(&mut moved, 0.0..=1.0).show_value(false);
-            ui.add(slider).on_hover_text("Which slice: near to far");
+            ui.add(slider).on_hover_text("Depth of the slice, near to far");
             if moved != depth {
                 commands.push(Command::ShowMajorants(Some(moved)));
             }
@@ -138,7 +143,7 @@ fn slice_ui(ui: &mut Ui, slice: Option<f32>, there: bool, commands: &mut Vec<Com
     });
 }
 
-/// What is to be said about a majorant that does not bound the extinction.
+/// Warning about a majorant that does not bound the extinction: colour, badge and text.
 fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'static str, &'static str)> {
     if majorant.factor >= 1.0 {
         return None;
@@ -147,24 +152,24 @@ fn verdict(majorant: &MajorantDoc, palette: &Palette) -> Option<(Color32, &'stat
         WhenExceeded::Weighted => (
             palette.warning,
             "weighted: unbiased, noisier",
-            "μ is below the largest σt. Where σt > μ, null collisions have negative weight: the mean is right, the variance grows.",
+            "μ is below the largest σt. Where σt > μ, null collisions have negative weight: the mean is correct, the variance increases.",
         ),
         WhenExceeded::Clamp => (
             palette.error,
             "clamp: biased",
-            "μ is below the largest σt and null collisions are clamped: the picture converges to a wrong, brighter or darker one.",
+            "μ is below the largest σt and null collisions are clamped: the image converges to a wrong result, too bright or too dark.",
         ),
         WhenExceeded::Progressive => (
             palette.warning,
             "raised: consistent",
-            "μ is below the largest σt. Cells in which σt > μ was found get a larger μ after 1, 2, 4, 8, … samples per pixel: early samples are biased, their share vanishes.",
+            "μ is below the largest σt. Cells in which σt > μ was found get a larger μ after 1, 2, 4, 8, … samples per pixel: early samples are biased, but their share vanishes.",
         ),
     })
 }
 
-/// Share of collisions in the box that are real, as a bar.
+/// Shows the fraction of collisions in the box that are real, as a bar.
 fn tightness_ui(ui: &mut Ui, tightness: f32) {
-    let tip = "mean σt / mean μ over the box: the share of collisions along a straight line that are real. The rest is null";
+    let tip = "mean σt / mean μ over the box: the fraction of collisions along a straight line that are real; the others are null";
     row(ui, "Tightness", tip, |ui, _| {
         let palette = Palette::get(ui);
         let width = ui.available_width() - 70.0;

@@ -1,7 +1,8 @@
-//! The sections of the two columns. A new file and a line in [`PANELS`] add one; tests open them all.
+//! Panels: the sections of the two columns. A new panel is a file and a line in [`PANELS`]; tests open them
+//! all.
 //!
-//! The left column holds *what* is simulated, the right one *how* it is estimated: nothing on the
-//! right changes what the picture converges to (the one exception is marked as biased, in red).
+//! The left column contains *what* is simulated, the right one *how* it is estimated: no setting on the right
+//! changes the image to which rendering converges, except those that are marked as biased, in red.
 
 mod albedo;
 mod camera;
@@ -30,64 +31,64 @@ use egui::{Color32, Ui};
 use majorant_core::scene::SceneDoc;
 use majorant_core::session::ViewState;
 
-/// What a panel sees and where its edits go.
+/// Context of a panel: read-only state, and the draft and commands that receive its edits.
 pub struct Cx<'a> {
-    /// The document to edit; what comes of it is compared and applied after the frame.
+    /// Document to edit; it is compared and applied after the frame.
     pub draft: &'a mut SceneDoc,
-    /// The document when it was opened or saved.
+    /// Document as opened or last saved.
     pub opened: &'a SceneDoc,
-    /// What the session is doing.
+    /// Session state of the selected view.
     pub state: &'a ViewState,
-    /// Rates and estimates derived from it.
+    /// Rates and estimated times, derived from `state`.
     pub stats: &'a Stats,
     /// Whether views and reference are paused.
     pub paused: bool,
-    /// Whether any of them has not come to its end.
+    /// Whether a view or the reference is unfinished.
     pub unfinished: bool,
-    /// How soon the window has answered lately.
+    /// Recent latencies of the window.
     pub latency: &'a Latency,
-    /// What the majorant's factor costs, as far as it was measured.
+    /// Measured cost as a function of the majorant's factor, possibly incomplete.
     pub factor_curve: &'a FactorCurve,
-    /// Preferences.
+    /// Settings of the window.
     pub settings: &'a Settings,
-    /// Names of the grids in files, as far as they were listed.
+    /// Names of the grids of listed files.
     pub grids: &'a GridLists,
-    /// Everything that is not an edit.
+    /// Receives all commands that are not edits of the document.
     pub commands: &'a mut Vec<Command>,
 }
 
-/// Which column a panel is in.
+/// Column of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
-    /// Left: what is simulated.
+    /// Left column: what is simulated.
     Scene,
-    /// Right: how it is estimated.
+    /// Right column: how it is estimated.
     Method,
 }
 
 /// A section of a column.
 pub trait Panel: Sync {
-    /// A stable id.
+    /// Stable id.
     fn id(&self) -> &'static str;
-    /// Its heading.
+    /// Heading of the section.
     fn title(&self) -> &'static str;
-    /// Where it is.
+    /// Column of the section.
     fn column(&self) -> Column;
-    /// Whether it is open at first.
+    /// Whether the section is initially open.
     fn starts_open(&self) -> bool {
         false
     }
-    /// What it holds, in a few words: the right end of its header.
+    /// Short summary of the content, at the right end of the header.
     fn summary(&self, cx: &Cx<'_>) -> String;
-    /// The colour of a dot that asks for attention.
+    /// Colour of a warning dot in the header, if any.
     fn alert(&self, _cx: &Cx<'_>, _palette: &Palette) -> Option<Color32> {
         None
     }
-    /// Its content.
+    /// Shows the content.
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
 }
 
-/// Every panel, from top to bottom of its column.
+/// All panels, from top to bottom of their columns.
 pub const PANELS: &[&dyn Panel] = &[
     &scene::Scene,
     &density::Density,

@@ -8,7 +8,7 @@ use majorant_core::scene::ObjectDoc;
 use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
-/// See the [module](self).
+/// Panel of the objects.
 pub struct Objects;
 
 impl Panel for Objects {
@@ -31,7 +31,7 @@ impl Panel for Objects {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         if cx.draft.objects.is_empty() {
-            hint(ui, "No object. A ground plane catches the medium's shadow.");
+            hint(ui, "No objects. A ground plane receives the shadow of the medium.");
         }
         let mut change = None;
         for (index, object) in cx.draft.objects.iter_mut().enumerate() {
@@ -65,7 +65,7 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
         let name = format!("{name} {}", key.label.to_lowercase());
         Vector::of(key, name, now).defaulting_to(default).opened(was).show(ui);
     };
-    // All three are of one kind.
+    // All three are of the same kind.
     match (object, opened, &template) {
         (
             ObjectDoc::Ground { point, normal, albedo },

@@ -1,4 +1,4 @@
-//! The phase function: which way light scatters.
+//! The phase function: kind, parameters and polar plot.
 
 use super::{Column, Cx, Panel, phase_table};
 use crate::model::Command;
@@ -7,10 +7,10 @@ use egui::Ui;
 use majorant_core::phase::{Parameter, Phase};
 use majorant_core::scene::{PhaseDoc, keys};
 
-/// See the [module](self).
+/// Panel of the phase function.
 pub struct PhaseFunction;
 
-/// Kinds that fit side by side.
+/// Number of kinds in a row.
 const PER_ROW: usize = 4;
 
 impl Panel for PhaseFunction {
@@ -44,11 +44,11 @@ impl Panel for PhaseFunction {
             phase_table::table_ui(ui, cx);
         }
         phase_lobe(ui, &current(cx), cx.settings.log_lobe);
-        row(ui, "Radius", "How far the curve is from the middle", |ui, _| {
+        row(ui, "Radius", "Scale of the distance from the centre", |ui, _| {
             let mut log = cx.settings.log_lobe;
             let options = [
                 (false, "Linear", "Radius proportional to p"),
-                (true, "Logarithmic", "Three decades below the largest value"),
+                (true, "Logarithmic", "Three decades below the maximum"),
             ];
             if segmented(ui, "Lobe radius", &mut log, &options) {
                 cx.commands.push(Command::ToggleLogLobe);
@@ -57,7 +57,7 @@ impl Panel for PhaseFunction {
     }
 }
 
-/// The phase function as edited; the points of a table in a file are the session's.
+/// Phase function as edited; points of a table file are taken from the session.
 pub(super) fn current(cx: &Cx<'_>) -> Phase {
     match (&cx.draft.medium.phase, cx.state.scene.as_ref()) {
         (PhaseDoc::Tabulated { angle, file, .. }, Some(info)) if !file.is_empty() => {
@@ -86,14 +86,14 @@ fn kind_ui(ui: &mut Ui, phase: &mut PhaseDoc) {
 fn parameters_ui(ui: &mut Ui, phase: &mut PhaseDoc, opened: &PhaseDoc) {
     let templates = PhaseDoc::templates();
     let default = templates.iter().find(|t| t.kind() == phase.kind()).map(PhaseDoc::parameters);
-    // What the scene had when it was opened counts if it was of the same kind.
+    // The opened parameters are used if they are of the same kind.
     let opened = if opened.kind() == phase.kind() { opened.parameters() } else { Vec::new() };
     let default = default.unwrap_or_default();
     let kind = phase.clone();
     for (index, (parameter, value)) in phase.parameters_mut().into_iter().enumerate() {
         let of = |from: &[(&Parameter, f32)]| from.get(index).map(|(_, value)| *value);
         let (before, default) = (of(&opened).unwrap_or(*value), of(&default).unwrap_or(*value));
-        // The same key may mean different things in two kinds.
+        // The meaning of a key may depend on the kind.
         let Some(key) = keys::phase_key(&kind, parameter) else { continue };
         let field = Value::of(key, value).defaulting_to(default).opened(before);
         let field = field.named(format!("Phase {}", parameter.label));

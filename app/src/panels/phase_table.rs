@@ -1,4 +1,4 @@
-//! The points of a tabulated phase function, typed or from a file.
+//! Points of a tabulated phase function, typed or from a file.
 
 use super::Cx;
 use crate::model::{Command, Purpose};
@@ -9,13 +9,13 @@ use majorant_core::io::phase_table;
 use majorant_core::phase::check_table;
 use majorant_core::scene::{Angle, PhaseDoc};
 
-/// Points that are shown to be edited; more are a file's business.
+/// Maximum number of points that can be edited in the panel.
 const SHOWN: usize = 200;
 
 /// Shows the table of a tabulated phase function.
 pub(super) fn table_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let PhaseDoc::Tabulated { angle, points, file } = &mut cx.draft.medium.phase else { return };
-    row(ui, "First column", "What the points' first numbers are", |ui, _| {
+    row(ui, "First column", "Meaning of the first number of each point", |ui, _| {
         let options = [
             (Angle::Cosine, "cos θ", "−1 is backward, 1 forward"),
             (Angle::Degrees, "θ in °", "0 is forward, 180 backward"),
@@ -25,7 +25,7 @@ pub(super) fn table_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             *points = converted(points, before, *angle);
         }
     });
-    let tip = "A text file with an angle and a value on each line, relative to the scene file; empty: the points below";
+    let tip = "A text file with an angle and a value on each line, relative to the scene file; if empty, the points below are used";
     let mut named = file.clone();
     if path_field(ui, "File", "phase table", "lobe.csv", &mut named, tip) {
         cx.commands.push(Command::Ask(Purpose::PhaseTable));
@@ -38,15 +38,15 @@ pub(super) fn table_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     }
     let read = cx.state.scene.as_ref().map(|info| info.phase_points.as_slice()).unwrap_or_default();
     if !file.is_empty() {
-        hint(ui, &format!("{} points, linear in cos θ between them.", read.len()));
-        if !read.is_empty() && ui.button("Take the points into the scene").clicked() {
+        hint(ui, &format!("{} points, interpolated linearly in cos θ.", read.len()));
+        if !read.is_empty() && ui.button("Copy the points into the scene").clicked() {
             *points = read.to_vec();
             file.clear();
         }
         return;
     }
     if points.len() > SHOWN {
-        hint(ui, &format!("{} points are too many to be edited here.", points.len()));
+        hint(ui, &format!("{} points, too many to edit here.", points.len()));
     } else {
         points_ui(ui, points);
     }
@@ -62,17 +62,18 @@ fn points_ui(ui: &mut Ui, points: &mut Vec<[f32; 2]>) {
     let id = ui.make_persistent_id("phase points");
     let rows = lines.len().clamp(4, 12);
     let response = buffered_text(ui, id, "Phase points", "angle, value", &mut text, rows);
-    response
-        .on_hover_text("An angle, rising, and a value on each line; the values are scaled to integrate to 1");
+    response.on_hover_text(
+        "An increasing angle and a value on each line; the values are scaled to integrate to 1",
+    );
     if text != before {
-        // Lines that are no points are left out by taking none of the edit.
+        // An edit with invalid lines is ignored.
         if let Ok(read) = phase_table::parse(&text, "points") {
             *points = read;
         }
     }
 }
 
-/// The same points by the other angle, in rising order, to six digits.
+/// Converts the points to another angle, in increasing order, with six digits.
 fn converted(points: &[[f32; 2]], from: Angle, to: Angle) -> Vec<[f32; 2]> {
     let short = |x: f64| format!("{x:.5e}").parse().unwrap_or(x as f32);
     let angle = |at: f32| match (from, to) {
@@ -91,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_same_lobe_by_the_other_angle() {
+    fn conversion_between_angles_keeps_the_lobe() {
         let degrees = vec![[0.0, 3.0], [60.0, 2.0], [90.0, 1.0], [180.0, 0.5]];
         let cosines = converted(&degrees, Angle::Degrees, Angle::Cosine);
         assert_eq!(cosines.first(), Some(&[-1.0, 0.5]));

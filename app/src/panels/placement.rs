@@ -1,10 +1,10 @@
-//! Where the medium's box stands: part of the density panel.
+//! Placement of the medium's box, a part of the density panel.
 
 use crate::widgets::{Vector, hint, key, optional_key};
 use egui::Ui;
 use majorant_core::scene::PlacementDoc;
 
-/// Shows the placement under its own small heading.
+/// Shows the placement in a collapsible section.
 pub fn placement_ui(ui: &mut Ui, placement: &mut PlacementDoc, opened: &PlacementDoc) {
     let title = egui::RichText::new("Placement").small();
     egui::CollapsingHeader::new(title).id_salt("placement").show_unindented(ui, |ui| {

@@ -11,7 +11,7 @@ use majorant_core::scene::Limits;
 use majorant_core::session::{Ending, Status};
 use std::sync::Arc;
 
-/// See the [module](self).
+/// Panel of the render.
 pub struct Render;
 
 impl Panel for Render {
@@ -58,11 +58,11 @@ fn buttons_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             }
         };
         let text = if paused { "Resume" } else { "Pause" };
-        let tip = "Pause all views and the reference after the running pass, or let all go on  (P)";
+        let tip = "Pause all views and the reference after the current pass, or resume them  (P)";
         button(ui, paused || cx.unfinished, text, tip, Command::TogglePause);
-        let tip = "While paused: one sample per pixel of all views and the reference  (.)";
+        let tip = "While paused: render one sample per pixel of all views and the reference  (.)";
         button(ui, paused && cx.unfinished, "Step", tip, Command::Step);
-        button(ui, true, "Restart", "Start all views over from sample 0  (R)", Command::Restart);
+        button(ui, true, "Restart", "Restart all views from sample 0  (R)", Command::Restart);
     });
 }
 
@@ -89,8 +89,8 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     let unknown = if cx.draft.render.limits().are_none() { "no limit" } else { "–" };
     let eta = stats.eta_seconds.map_or_else(|| unknown.into(), duration);
     let figures = [
-        ("Samples", format!("{}{limit}", stats.spp), "Samples per pixel in the picture"),
-        ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel and second"),
+        ("Samples", format!("{}{limit}", stats.spp), "Samples per pixel of the image"),
+        ("Rate", format!("{} spp/s", optional(stats.spp_per_second)), "Samples per pixel per second"),
         (
             "Look-ups/s",
             optional(stats.lookups_per_second),
@@ -99,9 +99,9 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
         (
             "Look-ups/path",
             optional(stats.lookups_per_path),
-            "Look-ups per path: what the majorant and the estimator cost",
+            "Look-ups per path: the cost of majorant and estimator",
         ),
-        ("Time", duration(stats.seconds), "Time spent rendering, pauses left out"),
+        ("Time", duration(stats.seconds), "Rendering time without pauses"),
         ("Left", eta, "Estimated time to the nearest limit"),
     ];
     ui.add_space(2.0);
@@ -116,7 +116,7 @@ fn figures_ui(ui: &mut Ui, cx: &Cx<'_>) {
     }
 }
 
-/// A number under its label.
+/// Shows a number under its label.
 fn figure_ui(ui: &mut Ui, width: f32, label: &str, value: &str, tip: &str) {
     let palette = Palette::get(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
@@ -135,7 +135,7 @@ fn figure_ui(ui: &mut Ui, width: f32, label: &str, value: &str, tip: &str) {
     response.on_hover_text(tip);
 }
 
-/// The picture of what was submitted last.
+/// Snapshot of the last submission.
 fn picture<'a>(cx: &Cx<'a>) -> Option<&'a Arc<Snapshot>> {
     cx.state.snapshot.as_ref().filter(|s| s.generation == cx.state.generation)
 }
@@ -146,8 +146,8 @@ fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
         let located = picture(cx).map(|s| s.tally.located.as_slice()).unwrap_or_default();
         let places: Vec<String> =
             located.iter().map(|n| format!("pixel ({}, {}), sample {}", n.x, n.y, n.sample)).collect();
-        let tip = format!("Left out of the picture, never hidden. First of them:\n{}", places.join("\n"));
-        badge(ui, palette.error, &format!("{} samples not finite", cx.stats.non_finite)).on_hover_text(tip);
+        let tip = format!("Excluded from the image and counted. The first ones:\n{}", places.join("\n"));
+        badge(ui, palette.error, &format!("{} non-finite samples", cx.stats.non_finite)).on_hover_text(tip);
     }
     if let Some(warning) = cx.state.ending.and_then(Ending::warning) {
         callout(ui, palette.warning, warning);
@@ -157,25 +157,25 @@ fn trouble_ui(ui: &mut Ui, cx: &Cx<'_>) {
     }
 }
 
-/// How soon the window answers.
+/// Shows the latencies of the window.
 fn latency_ui(ui: &mut Ui, latency: &Latency) {
     let title = RichText::new("Latency").small();
     egui::CollapsingHeader::new(title).id_salt("latency").show_unindented(ui, |ui| {
         let rows = [
             (
-                "First picture",
+                "First image",
                 latency.first_picture(),
                 "From an edit to the first frame that shows it, over the last 32 edits",
             ),
             (
                 "Cancelled",
                 latency.cancellation(),
-                "From an edit to the moment when no worker traces the old scene any more",
+                "From an edit until the last worker has stopped tracing the old scene",
             ),
             (
                 "Window",
                 latency.frames(),
-                "The window's own part of a frame, without the rasteriser, over the last 120 frames",
+                "Time of the window per frame, without rasterisation, over the last 120 frames",
             ),
         ];
         for (name, recent, tip) in rows {
@@ -193,7 +193,7 @@ fn latency_ui(ui: &mut Ui, latency: &Latency) {
     });
 }
 
-/// When it stops, by all limits that hold: whichever comes first.
+/// Describes when rendering stops, by all limits that are set.
 fn stops_at(limits: &Limits, relative_error: Option<f64>) -> String {
     let number = |x: f32| format_number(x.into());
     let now = relative_error.filter(|e| e.is_finite());
@@ -206,7 +206,7 @@ fn stops_at(limits: &Limits, relative_error: Option<f64>) -> String {
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();
     match all.split_last() {
-        None => "Goes on until it is paused: there is no limit.".into(),
+        None => "Renders until it is paused: there is no limit.".into(),
         Some((only, [])) => format!("Stops at {only}."),
         Some((last, others)) => format!("Stops at {} or {last}, whichever comes first.", others.join(", ")),
     }

@@ -1,10 +1,10 @@
-//! Title and note of the scene: what it is and what to notice in it.
+//! Title and note of the scene.
 
 use super::{Column, Cx, Panel};
 use crate::widgets::{buffered_text, row};
 use egui::Ui;
 
-/// See the [module](self).
+/// Panel of title and note.
 pub struct Scene;
 
 impl Panel for Scene {

@@ -3,11 +3,11 @@
 use glam::{Quat, Vec3};
 use majorant_core::scene::CameraDoc;
 
-/// Closest that the view direction comes to the up axis, degrees: at the pole the picture would spin.
+/// Minimum angle between view direction and up axis, degrees: the orientation is undefined at the pole.
 const POLE_DEG: f32 = 2.0;
 
-/// Turns the camera about its target like a turntable, by fractions of the view's width and height:
-/// dragging across the whole picture turns it half way round.
+/// Orbits the camera about its target by `dx` and `dy` half turns (turntable): a drag across the full width
+/// of the image is half a turn.
 #[must_use]
 pub fn orbit(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     let Some((offset, up)) = offset_and_up(camera) else { return camera.clone() };
@@ -20,8 +20,8 @@ pub fn orbit(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     CameraDoc { origin: (Vec3::from(camera.target) + lifted).into(), ..camera.clone() }
 }
 
-/// Moves camera and target sideways so that the plane through the target follows the pointer;
-/// `dx` and `dy` are fractions of the picture's width.
+/// Translates camera and target so that the plane through the target follows the pointer;
+/// `dx` and `dy` are fractions of the image's width.
 #[must_use]
 pub fn pan(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     let Some((offset, up)) = offset_and_up(camera) else { return camera.clone() };
@@ -36,19 +36,19 @@ pub fn pan(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     }
 }
 
-/// Moves the camera towards its target: `factor` below 1 comes closer.
+/// Multiplies the distance to the target by `factor`: below 1 the camera moves closer.
 #[must_use]
 pub fn dolly(camera: &CameraDoc, factor: f32) -> CameraDoc {
     let target = Vec3::from(camera.target);
     let offset = (Vec3::from(camera.origin) - target) * factor;
-    // Never reaches the target, where the direction would be lost.
+    // At the target the view direction would be undefined.
     if !offset.is_finite() || offset.length() < 1e-4 {
         return camera.clone();
     }
     CameraDoc { origin: (target + offset).into(), ..camera.clone() }
 }
 
-/// From the target to the camera, and the unit up axis; `None` if the camera is degenerate.
+/// Vector from target to camera, and the unit up axis; `None` for a degenerate camera.
 fn offset_and_up(camera: &CameraDoc) -> Option<(Vec3, Vec3)> {
     let offset = Vec3::from(camera.origin) - Vec3::from(camera.target);
     let up = Vec3::from(camera.up).try_normalize()?;
@@ -94,7 +94,7 @@ mod tests {
     fn pan_follows_the_pointer() {
         let camera = CameraDoc::default();
         let moved = pan(&camera, 1.0, 0.0);
-        // Dragging by a whole width moves the scene by what the camera sees at the target.
+        // A drag by the full width moves the scene by the visible width at the target.
         let width = 2.0 * 3.0 * (17.5_f32.to_radians()).tan();
         assert!((moved.target[0] + width).abs() < 1e-4);
         assert!((distance(&moved) - 3.0).abs() < 1e-5);

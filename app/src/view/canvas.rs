@@ -1,15 +1,15 @@
-//! The picture in the middle of the window and what the mouse does there.
+//! Image canvas and its mouse gestures.
 //!
 //! | gesture | effect |
 //! | --- | --- |
 //! | left drag | orbit about the target |
-//! | right drag, Shift + left drag | move the camera sideways |
-//! | Ctrl or Alt + wheel | move the camera closer or away |
-//! | wheel | zoom the picture at the pointer |
-//! | middle drag, Space + left drag | move the picture |
-//! | double click | fit the picture |
-//! | click | choose the view and the pixel |
-//! | Ctrl + left drag, or left drag with the box tool | draw the box that numbers are about |
+//! | right drag, Shift + left drag | pan the camera |
+//! | Ctrl or Alt + wheel | dolly |
+//! | wheel | zoom the image at the pointer |
+//! | middle drag, Space + left drag | pan the image |
+//! | double click | fit the image |
+//! | click | select the view and pick the pixel |
+//! | Ctrl + left drag, or left drag with the box tool | draw the box to which statistics are restricted |
 
 use super::{camera_control, image_view::ImageView, readout};
 use crate::theme::Palette;
@@ -20,51 +20,51 @@ use egui::{
 use majorant_core::film::Snapshot;
 use majorant_core::scene::{CameraDoc, ViewDoc};
 
-/// What is shown.
+/// Content of the canvas.
 pub struct Shown<'a> {
-    /// The developed picture.
+    /// Tone-mapped image.
     pub texture: Option<&'a TextureHandle>,
-    /// The numbers behind it.
+    /// Linear pixel values of the image.
     pub snapshot: Option<&'a Snapshot>,
-    /// Whether the picture is the last good one of a scene that does not build any more.
+    /// Whether to dim the image, because the current scene failed to build.
     pub dimmed: bool,
-    /// How radiance is shown; absent: no values are printed on enlarged pixels.
+    /// Tone mapping; without it, no values are printed on enlarged pixels.
     pub display: Option<&'a ViewDoc>,
-    /// A second picture right of a divider, which stands at this share of the canvas.
+    /// Second image right of a divider, and the divider's position as a fraction of the canvas width.
     pub wipe: Option<(Option<&'a TextureHandle>, f32)>,
-    /// The box that numbers are about.
+    /// Box to which statistics are restricted, `[x0, y0, x1, y1]` in pixels.
     pub region: Option<[u32; 4]>,
-    /// The pixel whose samples are shown.
+    /// Picked pixel.
     pub picked: Option<[usize; 2]>,
-    /// Whether a drag draws the box.
+    /// Whether a left drag draws the box.
     pub draws_region: bool,
-    /// What the picture is called.
+    /// Accessible name.
     pub name: &'a str,
 }
 
-/// What came of it.
+/// Result of one frame of the canvas.
 pub struct Outcome {
-    /// Pan and zoom afterwards.
+    /// Pan and zoom after this frame's gestures.
     pub view: ImageView,
-    /// The camera, if a gesture moved it.
+    /// New camera, if a gesture moved it.
     pub camera: Option<CameraDoc>,
-    /// The pixel under the pointer.
+    /// Pixel under the pointer.
     pub pixel: Option<[usize; 2]>,
-    /// Where the canvas is, for overlays.
+    /// Rectangle of the canvas, for overlays.
     pub rect: Rect,
-    /// Points per pixel.
+    /// Screen points per image pixel.
     pub zoom: f32,
-    /// A pixel that was clicked.
+    /// Clicked pixel.
     pub clicked: Option<[usize; 2]>,
-    /// Whether the canvas was touched at all.
+    /// Whether the canvas was clicked or a drag has started.
     pub touched: bool,
-    /// A box that was drawn; none inside if it was cleared.
+    /// Finished box, `Some(None)` if an empty drag cleared it.
     pub region: Option<Option<[u32; 4]>>,
-    /// Where the divider was dragged to.
+    /// New position of the divider, as a fraction of the canvas width.
     pub split: Option<f32>,
 }
 
-/// Draws the picture and reads the gestures on it. `film` is the size that the document asks for.
+/// Draws the image and handles gestures. `film` is the document's resolution, used without a snapshot.
 pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &CameraDoc, film: Vec2) -> Outcome {
     let palette = Palette::get(ui);
     let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
@@ -111,7 +111,7 @@ pub fn canvas_ui(ui: &mut Ui, shown: &Shown<'_>, view: ImageView, camera: &Camer
     }
 }
 
-/// The part of the second picture right of the divider, and the divider itself.
+/// Draws the second image right of the divider, and the divider; returns its new position if it was dragged.
 fn wipe_ui(ui: &mut Ui, second: Option<&TextureHandle>, at: f32, canvas: Rect, frame: Rect) -> Option<f32> {
     let palette = Palette::get(ui);
     let x = egui::lerp(canvas.x_range(), at);
@@ -135,7 +135,7 @@ fn wipe_ui(ui: &mut Ui, second: Option<&TextureHandle>, at: f32, canvas: Rect, f
     (moved != 0.0).then(|| (at + moved / canvas.width().max(1.0)).clamp(0.02, 0.98))
 }
 
-/// The box that is being drawn: `Some(None)` if it holds nothing, `None` if none is drawn.
+/// Box that is being drawn: `Some(None)` if it is smaller than 2 × 2 pixels, `None` without a drag.
 fn region_gesture(
     ui: &Ui,
     response: &Response,
@@ -168,7 +168,7 @@ fn region_gesture(
     Some(holds.then_some([low.x as u32, low.y as u32, high.x as u32, high.y as u32]))
 }
 
-/// The box and the pixel that numbers are about.
+/// Outlines the box and the picked pixel.
 fn marks(
     painter: &egui::Painter,
     shown: &Shown<'_>,
@@ -189,7 +189,7 @@ fn marks(
     }
 }
 
-/// Pan and zoom of the picture, and the camera if a gesture moved it.
+/// Applies gestures: returns pan and zoom of the image, and the camera if a gesture moved it.
 fn gestures(
     ui: &Ui,
     response: &Response,
@@ -222,7 +222,8 @@ fn gestures(
     }
     let Some(at) = response.hover_pos() else { return (view, None) };
     let (wheel, pinch) = ui.input(|i| (i.smooth_scroll_delta().y, i.zoom_delta()));
-    // 1 is egui's value for no gesture. It turns Ctrl + wheel into a zoom gesture; Alt + wheel arrives as plain scrolling.
+    // egui reports a factor of 1 without a gesture. It converts Ctrl + wheel into a zoom gesture, but reports
+    // Alt + wheel as scrolling.
     if pinch != 1.0 {
         return (view, Some(camera_control::dolly(camera, 1.0 / pinch)));
     }

@@ -1,9 +1,9 @@
-//! The majorant's cells, drawn over the picture: how tight each local bound is.
+//! Overlay of the majorant grid, coloured by the tightness of each local bound.
 //!
-//! One slice of the grid is shown, across the axis that the camera looks along most; deeper slices lie behind it.
-//! A cell's colour is its tightness, mean density over bound: 1 where every collision is real, near 0 where nearly all are
-//! null. Cells in which a flight has found the extinction to exceed the majorant are red, the more it did the fuller.
-//! Empty cells, which a flight passes for free, are left clear.
+//! One slice of the grid is shown, perpendicular to the axis closest to the view direction.
+//! A cell's colour is its tightness, mean density over bound: 1 where every collision is real, near 0 where
+//! nearly all are null. Cells in which a free flight found the extinction to exceed the majorant are red, with
+//! an opacity that increases with the ratio. Empty cells, crossed at no cost, are transparent.
 
 use super::image_view::ImageView;
 use crate::theme::Palette;
@@ -13,11 +13,11 @@ use majorant_core::medium::MajorantCells;
 use majorant_core::scene::{Camera, Scene};
 use majorant_core::session::Probe;
 
-/// Finer grids get no lines between cells: there would be more line than cell.
+/// Maximum resolution at which lines are drawn between cells.
 const MOST_LINED: usize = 32;
 const ALPHA: f32 = 0.45;
 
-/// Draws the slice at `depth` (0 nearest, 1 farthest), and what its colours stand for.
+/// Draws the slice at `depth` (0 nearest, 1 farthest) and its legend.
 pub fn paint(
     ui: &Ui,
     canvas: Rect,
@@ -66,7 +66,7 @@ pub fn paint(
     }
 }
 
-/// A layer of cells.
+/// One layer of majorant cells, perpendicular to an axis.
 struct Slice {
     axis: usize,
     layer: usize,
@@ -97,7 +97,7 @@ impl Slice {
         }
     }
 
-    /// Where the corners of the cells stand on the screen, in the middle of the layer; none behind the camera.
+    /// Screen positions of the cell corners in the middle of the layer; `None` behind the camera.
     fn corners(&self, scene: &Scene, camera: &Camera, screen: impl Fn(Pos2) -> Pos2) -> Vec<Option<Pos2>> {
         let world_from_medium = scene.medium_from_world.inverse();
         let n = self.cells as f32;
@@ -122,13 +122,13 @@ fn colour(tightness: f32) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// Of a cell whose majorant was exceeded so many times over.
+/// Colour of a cell in which extinction divided by majorant reached `excess`.
 fn violation(excess: f32) -> Color32 {
     let fullness = 0.35 + 0.5 * (1.0 - 1.0 / excess.max(1.0));
     Color32::from_rgb(225, 40, 40).gamma_multiply(fullness)
 }
 
-/// What red means, above the bar.
+/// Legend of violated cells, above the tightness bar.
 fn violation_legend(ui: &Ui, painter: &Painter, canvas: Rect) {
     let palette = Palette::get(ui);
     let font = TextStyle::Small.resolve(ui.style());
@@ -141,7 +141,7 @@ fn violation_legend(ui: &Ui, painter: &Painter, canvas: Rect) {
     painter.text(swatch.right_center() + vec2(8.0, 0.0), Align2::LEFT_CENTER, text, font, palette.text);
 }
 
-/// A bar with its ends named, in the lower left corner.
+/// Legend of the tightness scale, in the lower left corner.
 fn legend(ui: &Ui, painter: &Painter, canvas: Rect, slice: &Slice, cells: usize) {
     let palette = Palette::get(ui);
     let font = TextStyle::Small.resolve(ui.style());

@@ -1,11 +1,11 @@
-//! Where the picture lies on the canvas: pan and zoom as pure maths.
+//! Pan and zoom of an image on the canvas, as pure functions.
 
 use egui::{Pos2, Rect, Vec2, pos2};
 
-/// Pan and zoom of a picture on a canvas. Image coordinates are in pixels from its top left corner.
+/// Pan and zoom of an image on a canvas. Image coordinates are in pixels from the top left corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImageView {
-    /// The image point at the middle of the canvas; `None` while the picture is fitted.
+    /// Image point at the centre of the canvas, and zoom; `None` while the image is fitted.
     placed: Option<Placed>,
 }
 
@@ -22,20 +22,20 @@ impl Default for ImageView {
 }
 
 impl ImageView {
-    /// The whole picture, as large as the canvas allows.
+    /// Fits the whole image into the canvas.
     pub const FIT: Self = Self { placed: None };
-    /// Least and greatest zoom, screen points per image pixel.
+    /// Range of the zoom, screen points per image pixel.
     pub const ZOOM_RANGE: std::ops::RangeInclusive<f32> = 0.05..=256.0;
-    /// Gap that fitting leaves around the picture: this share of the canvas, and at most so many points.
+    /// Margin around a fitted image: fraction of the canvas, and its maximum in points.
     const MARGIN: (f32, f32) = (0.02, 16.0);
 
-    /// The picture at `zoom` points per pixel, centred.
+    /// Centres the image at `zoom` points per pixel.
     #[must_use]
     pub fn at_zoom(zoom: f32, image: Vec2) -> Self {
         Self { placed: Some(Placed { centre: 0.5 * image, zoom }) }
     }
 
-    /// Whether the picture follows the canvas.
+    /// Whether the image is fitted to the canvas.
     #[must_use]
     pub fn is_fitted(&self) -> bool {
         self.placed.is_none()
@@ -60,28 +60,28 @@ impl ImageView {
         self.resolve(canvas, image).zoom
     }
 
-    /// Where the whole picture lies on the screen.
+    /// Screen rectangle of the whole image.
     #[must_use]
     pub fn screen_rect(&self, canvas: Rect, image: Vec2) -> Rect {
         let Placed { centre, zoom } = self.resolve(canvas, image);
         Rect::from_min_size(canvas.center() - centre * zoom, image * zoom)
     }
 
-    /// The image point under a screen point.
+    /// Converts a screen point to image coordinates.
     #[must_use]
     pub fn image_from_screen(&self, canvas: Rect, image: Vec2, at: Pos2) -> Pos2 {
         let Placed { centre, zoom } = self.resolve(canvas, image);
         (centre + (at - canvas.center()) / zoom).to_pos2()
     }
 
-    /// The screen point of an image point.
+    /// Converts image coordinates to a screen point.
     #[must_use]
     pub fn screen_from_image(&self, canvas: Rect, image: Vec2, at: Pos2) -> Pos2 {
         let Placed { centre, zoom } = self.resolve(canvas, image);
         canvas.center() + (at.to_vec2() - centre) * zoom
     }
 
-    /// The pixel under a screen point, if it is on the picture.
+    /// Pixel under a screen point; `None` outside of the image.
     #[must_use]
     pub fn pixel_at(&self, canvas: Rect, image: Vec2, at: Pos2) -> Option<[usize; 2]> {
         let p = self.image_from_screen(canvas, image, at);
@@ -89,16 +89,16 @@ impl ImageView {
         inside.then_some([p.x as usize, p.y as usize])
     }
 
-    /// Moves the picture by a distance on the screen.
+    /// Pans the image by a screen distance.
     #[must_use]
     pub fn panned(&self, canvas: Rect, image: Vec2, by: Vec2) -> Self {
         let Placed { centre, zoom } = self.resolve(canvas, image);
-        // The middle of the canvas stays on the picture, so that it cannot get lost.
+        // The centre of the canvas stays on the image, so that part of the image is always visible.
         let centre = (centre - by / zoom).clamp(Vec2::ZERO, image);
         Self { placed: Some(Placed { centre, zoom }) }
     }
 
-    /// Zooms by a factor; the image point under `at` stays there.
+    /// Zooms by a factor about the screen point `at`.
     #[must_use]
     pub fn zoomed(&self, canvas: Rect, image: Vec2, at: Pos2, factor: f32) -> Self {
         let Placed { zoom, .. } = self.resolve(canvas, image);
@@ -108,7 +108,7 @@ impl ImageView {
         Self { placed: Some(Placed { centre, zoom }) }
     }
 
-    /// The pixels that lie at least partly on the canvas, `[x0, y0, x1, y1]`, ends exclusive.
+    /// Range of pixels that are at least partly on the canvas, `[x0, y0, x1, y1]`, ends exclusive.
     #[must_use]
     pub fn visible_pixels(&self, canvas: Rect, image: Vec2) -> [usize; 4] {
         let corner = |p: Pos2| self.image_from_screen(canvas, image, p);

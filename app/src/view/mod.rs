@@ -1,4 +1,4 @@
-//! The picture: where it is on the canvas, how it becomes a texture, how the mouse moves the camera.
+//! Image display: pan and zoom on the canvas, tone mapping to textures, camera gestures and overlays.
 
 pub mod camera_control;
 pub mod canvas;

@@ -1,14 +1,14 @@
-//! Pixel values as text: in the status line, and on the pixels themselves when they are large enough.
+//! Pixel values as text, in the status line and on enlarged pixels.
 
 use super::image_view::ImageView;
 use egui::{Align2, Color32, FontId, Painter, Rect, Vec2, pos2};
 use majorant_core::film::{Snapshot, display::DisplayTransform};
 use majorant_core::scene::ViewDoc;
 
-/// Zoom from which values are printed on the pixels.
+/// Minimum zoom at which values are printed on pixels, screen points per pixel.
 const PRINTED_FROM: f32 = 56.0;
 
-/// `0.01234` with three significant digits, short enough for a pixel.
+/// Formats a value with a few digits, short enough for a pixel.
 #[must_use]
 pub fn short(value: f32) -> String {
     let magnitude = value.abs();
@@ -24,7 +24,7 @@ pub fn short(value: f32) -> String {
     }
 }
 
-/// `(412, 77)  R 0.213 ± 0.004  …`, or why there is no standard error yet.
+/// Formats a pixel as `(412, 77)  R 0.213 ± 0.004  …`, without standard errors that are not finite.
 #[must_use]
 pub fn describe(snapshot: &Snapshot, [x, y]: [usize; 2]) -> Option<String> {
     let index = y * snapshot.width + x;
@@ -40,7 +40,7 @@ pub fn describe(snapshot: &Snapshot, [x, y]: [usize; 2]) -> Option<String> {
     Some(format!("({x}, {y})   {}", channels.join("   ")))
 }
 
-/// Prints linear values on every visible pixel once they are large enough.
+/// Prints linear values on every visible pixel if the zoom is large enough.
 pub fn paint_values(
     painter: &Painter,
     view: ImageView,

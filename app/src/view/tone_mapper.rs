@@ -1,7 +1,7 @@
-//! Tone mapping of pictures and painting of maps, in the background.
+//! Tone mapping of images and colour mapping of maps, on a worker thread.
 //!
-//! The session calls [`Waker::wake`] when a view has a new picture. The worker then tone-maps the pictures that the
-//! window shows, at most thirty times a second and within its share of a core, and requests a repaint.
+//! The session calls [`Waker::wake`] when a view has a new image. The worker then tone-maps the images that
+//! the window shows, at most thirty times a second and within its share of a core, and requests a repaint.
 
 use crate::background::{Background, Inbox, Reply};
 use crate::model::{Pair, WindowDoc};
@@ -15,55 +15,55 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Shortest time between two pictures.
+/// Minimum interval between two updates.
 const SHORTEST: Duration = Duration::from_millis(33);
-/// Developing may take this share of a core, so that rendering keeps the rest.
+/// Reciprocal of the share of a core that tone mapping may take, so that rendering keeps the rest.
 const SHARE: u32 = 6;
 
-/// What there is to be looked at.
+/// Identifies an image of the comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PictureId {
     /// A view of the document, from 0.
     View(usize),
-    /// What errors are measured against.
+    /// The reference of the errors.
     Reference,
-    /// What two views differ by.
+    /// The difference of two views.
     Difference,
 }
 
-/// A view that the window shows.
+/// A view of the document and its counterpart in the session.
 #[derive(Clone)]
 pub struct OrderedView {
-    /// Its number in the document, from 0.
+    /// Index in the document, from 0.
     pub number: usize,
-    /// Its name in the session.
+    /// Id in the session.
     pub id: ViewId,
-    /// What it renders.
+    /// The scene that it renders.
     pub doc: Arc<SceneDoc>,
 }
 
-/// What the window wants to show.
+/// Images that the window shows, with everything that they depend on.
 #[derive(Clone, Default)]
 pub struct Order {
     /// The scene with its comparison.
     pub doc: Arc<SceneDoc>,
-    /// Its views.
+    /// The views of the comparison.
     pub views: Vec<OrderedView>,
-    /// What errors are measured against.
+    /// The reference of the errors.
     pub reference: Option<Arc<Reference>>,
-    /// Pictures as they are, each with its display.
+    /// Tone-mapped images, each with its display settings.
     pub pictures: Vec<(PictureId, ViewDoc)>,
-    /// Or this map of these.
+    /// A map, and the views and differences for which it is shown.
     pub maps: Option<(&'static Map, Vec<PictureId>)>,
 }
 
 impl Order {
-    /// The session's view that has a number in the document.
+    /// Id in the session of the view with an index in the document.
     fn id(&self, number: usize) -> Option<ViewId> {
         self.views.iter().find(|v| v.number == number).map(|v| v.id)
     }
 
-    /// Whether nothing has to be developed anew. Documents and references are told apart by where they lie.
+    /// Whether both orders give the same images. Documents and references are compared by address.
     fn is_like(&self, other: &Self) -> bool {
         let views =
             |o: &Self| o.views.iter().map(|v| (v.number, v.id, Arc::as_ptr(&v.doc))).collect::<Vec<_>>();
@@ -76,51 +76,51 @@ impl Order {
     }
 }
 
-/// A picture ready to be shown.
+/// An image ready for upload as a texture.
 #[derive(Clone, Debug)]
 pub struct ViewImage {
-    /// The pixels.
+    /// Display pixels.
     pub image: ColorImage,
-    /// The view's numbers that it was made from; absent for the reference.
+    /// Snapshot of the view from which it was made; `None` for the reference.
     pub snapshot: Option<Arc<Snapshot>>,
-    /// The session's view, if it is one's.
+    /// Id in the session of the view that it shows.
     pub id: Option<ViewId>,
-    /// The reference that it was made from, if it is one.
+    /// The reference that it shows.
     pub reference: Option<Arc<Reference>>,
-    /// What it shows, if it is a map: the map's id, values and range.
+    /// Values of the map that it shows.
     pub map: Option<Arc<MapImage>>,
 }
 
-/// The numbers behind a map.
+/// Values and colour scale of a map.
 #[derive(Clone, Debug)]
 pub struct MapImage {
-    /// Which map.
+    /// The map.
     pub map: &'static Map,
-    /// What views are held against in it, in words; empty if it needs nothing.
+    /// Description of the reference; empty if the map needs none.
     pub against: String,
-    /// Its values.
+    /// Values, one per pixel.
     pub values: Vec<f32>,
-    /// What its colours stand for.
+    /// Range of values of the colour scale.
     pub range: Range,
 }
 
 type Done = BTreeMap<PictureId, Option<ViewImage>>;
 
-/// Tells the tone mapper that there is something new; cheap to clone.
+/// Handle that wakes the tone mapper; cheap to clone.
 #[derive(Clone, Default)]
 pub struct Waker(Inbox<(), Done>);
 
 impl Waker {
-    /// Has the tone mapper look again.
+    /// Requests an update of the images.
     pub fn wake(&self) {
         self.0.replace(());
     }
 }
 
-/// Finds the newest picture of a view.
+/// Returns the newest snapshot of a view.
 pub type Poll = Box<dyn Fn(ViewId) -> Option<Arc<Snapshot>> + Send + Sync>;
 
-/// What the window wants, and the shortest time between pictures that it can afford.
+/// Requested images, and the minimum interval between updates.
 #[derive(Default)]
 struct Wanted {
     order: Order,
@@ -128,21 +128,21 @@ struct Wanted {
 }
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Every change leaves the value consistent, so a poisoned lock is still good.
+    // Every change leaves the value consistent, so a poisoned lock can be used.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The worker that tone-maps pictures and paints maps.
+/// Worker that tone-maps images and colours maps.
 pub struct ToneMapper {
     wanted: Arc<Mutex<Wanted>>,
     worker: Background<(), Done>,
 }
 
 impl ToneMapper {
-    /// Starts the thread. `repaint` wakes the window.
+    /// Starts the thread. `repaint` requests a repaint of the window.
     ///
     /// # Errors
-    /// When the operating system refuses a thread.
+    /// Failure of the operating system to start a thread.
     pub fn new(
         waker: Waker,
         poll: Poll,
@@ -169,7 +169,7 @@ impl ToneMapper {
         Ok(Self { wanted, worker })
     }
 
-    /// Shows this from now on, and what is new in it at once.
+    /// Replaces the requested images; a changed request is processed at once.
     pub fn order(&self, order: Order) {
         let mut wanted = lock(&self.wanted);
         if !wanted.order.is_like(&order) {
@@ -178,25 +178,25 @@ impl ToneMapper {
         }
     }
 
-    /// Sets the shortest time between pictures that the window can afford.
+    /// Sets the minimum interval between updates.
     pub fn set_interval(&self, interval: Duration) {
         lock(&self.wanted).interval = interval;
     }
 
-    /// The pictures that were not taken yet; `None` for what has nothing to show any more.
+    /// Takes the images finished since the last call; `None` for an image that no longer has content.
     pub fn take(&mut self) -> BTreeMap<PictureId, Option<ViewImage>> {
         self.worker.poll().pop().unwrap_or_default()
     }
 }
 
-/// The sources of the last pictures, so that nothing is tone-mapped twice.
+/// Sources of the last images, so that unchanged images are not tone-mapped again.
 #[derive(Default)]
 struct Cache {
     pictures: BTreeMap<PictureId, (Source, ViewDoc)>,
     maps: Option<(Vec<Source>, Order)>,
 }
 
-/// The source of a picture, kept alive so that nothing newer can have its address.
+/// Source of an image, kept alive so that its address is not reused: sources are compared by address.
 #[derive(Clone)]
 enum Source {
     View(Arc<Snapshot>),
@@ -290,13 +290,13 @@ impl Cache {
             let image = ColorImage::new([snapshot.width, snapshot.height], pixels.collect());
             let (id, against) = match picture {
                 PictureId::View(number) => (order.id(number), against.clone()),
-                // A difference names its two views itself.
+                // The caption of a difference names both views.
                 PictureId::Reference | PictureId::Difference => (None, String::new()),
             };
             let map = Some(Arc::new(MapImage { map, against, values, range }));
             (picture, ViewImage { image, snapshot: Some(snapshot), id, reference: None, map })
         };
-        // What has no values any more must not go on showing old ones.
+        // Images without current values are removed.
         let mut images: BTreeMap<PictureId, Option<ViewImage>> =
             pictures_shown.iter().map(|picture| (*picture, None)).collect();
         images.extend(values.into_iter().map(painted).map(|(picture, image)| (picture, Some(image))));
@@ -304,12 +304,12 @@ impl Cache {
     }
 }
 
-/// What the views of an experiment are held against.
+/// Description of the reference of an experiment.
 fn against(experiment: &Experiment) -> String {
     experiment.reference.as_ref().map_or("the mean of the other unbiased views".into(), |r| r.origin.clone())
 }
 
-/// A map's values for a view or a difference, with the picture that they belong to.
+/// Values of a map for a view or a difference, with the snapshot to which they belong.
 fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc<Snapshot>, Vec<f32>)> {
     let find = |number: usize| experiment.views.iter().find(|(n, _)| *n == number).map(|(_, v)| &v.snapshot);
     let (snapshot, values) = match picture {
@@ -335,7 +335,7 @@ fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc
     (values.len() == snapshot.mean.len()).then(|| (Arc::clone(snapshot), values))
 }
 
-/// Applies the display transform to every pixel.
+/// Applies the display transform to every pixel of a linear image.
 #[must_use]
 pub fn tone_mapped(size: [usize; 2], mean: &[[f32; 3]], view: &ViewDoc) -> ColorImage {
     let transform = DisplayTransform::new(view);

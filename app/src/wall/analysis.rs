@@ -1,4 +1,4 @@
-//! Computes the comparison's numbers on a thread of its own, so that no frame waits for them.
+//! Statistics of the comparison, computed on a worker thread so that no frame waits for them.
 
 use super::provenance::Provenance;
 use crate::background::{Background, Reply};
@@ -15,88 +15,88 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Shortest time between two analyses.
+/// Minimum interval between two analyses.
 const SHORTEST: Duration = Duration::from_millis(250);
-/// Analysing may take this share of a core, so that rendering keeps the rest.
+/// Reciprocal of the share of a core that analyses may take, so that rendering keeps the rest.
 const SHARE: u32 = 5;
-/// Samples of a pixel that are traced again, per view and analysis.
+/// Samples of the picked pixel that are retraced, per view and analysis.
 const TRACED: u64 = 2048;
-/// The most samples of a pixel that are kept.
+/// Maximum number of samples of a pixel that are kept, per view.
 pub(super) const KEPT: u64 = 100_000;
 
-/// What shall be analysed.
+/// Input of an analysis.
 #[derive(Clone)]
 pub struct Question {
-    /// What the answer is of.
+    /// Provenance of the result.
     pub of: Provenance,
-    /// The views with their pictures.
+    /// The views with their snapshots.
     pub experiment: Experiment,
-    /// A pixel whose samples are wanted.
+    /// Pixel whose samples are retraced.
     pub pixel: Option<PickedPixel>,
 }
 
-/// A pixel whose samples are wanted.
+/// A pixel whose samples are retraced.
 #[derive(Clone)]
 pub struct PickedPixel {
     /// Column and row.
     pub at: [usize; 2],
-    /// What traces its paths in every view, by the view's number.
+    /// Tracers of the pixel's paths, with the index of their view.
     pub probes: Vec<(usize, Probe)>,
 }
 
-/// The error curve of a view.
+/// Error curve of a view.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// The view, from 0.
+    /// Index of the view, from 0.
     pub view: usize,
-    /// Its points.
+    /// Points, by increasing sample count.
     pub points: Vec<Point>,
 }
 
-/// The samples of a pixel in a view, in the order of their numbers.
+/// Samples of a pixel in a view.
 #[derive(Clone, Debug)]
 pub struct PixelSamples {
-    /// The view, from 0.
+    /// Index of the view, from 0.
     pub view: usize,
-    /// The samples.
+    /// Samples, by index.
     pub samples: Arc<Vec<PixelSample>>,
 }
 
-/// What came of it.
+/// Result of an analysis.
 #[derive(Clone, Default)]
 pub struct Analysis {
-    /// What it is of.
+    /// Provenance of the numbers.
     pub of: Provenance,
-    /// One line per view that has a picture.
+    /// One row per view that has a snapshot.
     pub standings: Vec<Standing>,
-    /// The measure of `curves`.
+    /// Error measure of `curves`.
     pub measure: Option<&'static Measure>,
     /// Error curves.
     pub curves: Vec<Curve>,
-    /// Whether the two views of the pair agree.
+    /// Agreement of the two views of the pair.
     pub pair: Option<(Pair, Agreement)>,
-    /// The samples of the picked pixel.
+    /// Samples of the picked pixel.
     pub pixel: Option<([usize; 2], Vec<PixelSamples>)>,
-    /// How long it took.
+    /// Duration of the analysis, in seconds.
     pub seconds: f64,
 }
 
 impl Analysis {
-    /// The line of a view.
+    /// Row of the view with a label.
     #[must_use]
     pub fn standing(&self, label: &str) -> Option<&Standing> {
         self.standings.iter().find(|s| s.label == label)
     }
 }
 
-/// The worker that analyses the newest question.
+/// Worker that analyses the newest question.
 pub struct AnalysisWorker(Background<Question, Arc<Analysis>>);
 
 impl AnalysisWorker {
-    /// Starts the thread; `repaint` wakes the window.
+    /// Starts the thread; `repaint` requests a repaint of the window.
     ///
     /// # Errors
-    /// When the operating system refuses a thread.
+    /// Failure of the operating system to start a thread.
     pub fn new(repaint: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         let memory = Mutex::new(Memory::default());
         let work = move |question: Question, reply: &Reply<'_, Question, Arc<Analysis>>| {
@@ -113,36 +113,36 @@ impl AnalysisWorker {
         Ok(Self(worker))
     }
 
-    /// Asks; the newest question counts.
+    /// Submits a question, which replaces any that is still waiting.
     pub fn ask(&self, question: Question) {
         self.0.inbox().replace(question);
     }
 
-    /// The newest answer, if there is one that was not taken yet.
+    /// Takes the newest analysis finished since the last call.
     pub fn take(&mut self) -> Option<Arc<Analysis>> {
         self.0.poll().pop()
     }
 }
 
-/// What is kept from one analysis to the next.
+/// Results that are reused by the next analysis.
 #[derive(Default)]
 struct Memory {
-    /// Points of curves, by view, with all that they depend on but the checkpoint.
+    /// Curve points of each view, with their dependencies other than the checkpoint.
     curves: BTreeMap<usize, (CurveKey, Vec<Point>)>,
-    /// Which pixel `traced` belongs to.
+    /// The pixel of `traced`.
     pixel: Option<[usize; 2]>,
     /// Samples of the pixel, by view.
     traced: BTreeMap<usize, Traced>,
 }
 
-/// The first samples of a pixel in one submission.
+/// First samples of a pixel in one submission.
 #[derive(Default)]
 struct Traced {
     generation: u64,
     samples: Arc<Vec<PixelSample>>,
 }
 
-/// What the early points of a curve depend on.
+/// Dependencies of the existing points of a curve.
 #[derive(Clone)]
 struct CurveKey {
     generation: u64,
@@ -152,7 +152,7 @@ struct CurveKey {
 }
 
 impl CurveKey {
-    /// Whether points of the one are points of the other: only against a reference that stands.
+    /// Whether the points of both are the same, which requires the same fixed reference.
     fn fits(&self, other: &Self) -> bool {
         let same = |(a, b): (&Arc<Reference>, &Arc<Reference>)| Arc::ptr_eq(a, b);
         (self.generation, self.measure, self.region) == (other.generation, other.measure, other.region)
@@ -166,7 +166,7 @@ impl Memory {
         let compare = &experiment.doc.compare;
         let chosen = measure::find(&compare.measure.0);
         let opponents = experiment.opponents();
-        // The relative error is in every table, whatever the curves show.
+        // The relative MSE is in every table, in addition to the chosen measure.
         let mut measures: Vec<&'static Measure> = measure::find("relmse").into_iter().collect();
         measures.extend(chosen.filter(|m| m.id != "relmse"));
         let standings = experiment.rank_against(measures, &opponents);
@@ -183,7 +183,7 @@ impl Memory {
         }
     }
 
-    /// Points that stay are not measured again: against a reference that stands, only new checkpoints are.
+    /// Error curves. With an unchanged reference, only new checkpoints are measured.
     fn curves(
         &mut self,
         experiment: &Experiment,
@@ -211,7 +211,7 @@ impl Memory {
         curves
     }
 
-    /// Traces the pixel's samples again, some at a time.
+    /// Retraces the next samples of the pixel, at most [`TRACED`] per view.
     fn samples(
         &mut self,
         picked: &PickedPixel,
@@ -253,7 +253,7 @@ fn pair(experiment: &Experiment, pair: Pair) -> Option<(Pair, Agreement)> {
     Some((pair, found))
 }
 
-/// The line through an error curve's later half, where it has settled.
+/// Fits a power law to the last two thirds of an error curve, or to all of it if it has at most six points.
 #[must_use]
 pub fn settled_law(points: &[Point], axis: majorant_core::compare::curve::Axis) -> Option<PowerLaw> {
     let from = if points.len() > 6 { points.len() / 3 } else { 0 };

@@ -1,4 +1,4 @@
-//! The bar above the pictures: how many views, how they are shown, what they are held against.
+//! Toolbar above the images: number of views, arrangement, layer, fairness and reference.
 
 use super::state::{Tool, Wall};
 use crate::model::WallEdit;
@@ -12,11 +12,11 @@ use majorant_core::estimator::REGISTRY;
 use majorant_core::measure::MEASURES;
 use majorant_core::scene::{Fairness, ReferenceDoc, SceneDoc};
 
-/// How many views can be chosen at once.
+/// Numbers of views offered as buttons.
 const COUNTS: [usize; 6] = [1, 2, 3, 4, 6, 8];
 
 impl Wall {
-    /// Draws the bar.
+    /// Draws the toolbar.
     pub fn bar_ui(&mut self, ui: &mut Ui, doc: &SceneDoc, dock: bool, commands: &mut Vec<Command>) {
         let several = doc.view_count() > 1;
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
@@ -48,7 +48,7 @@ impl Wall {
                 on,
                 "Box",
                 "Box tool",
-                "Drag a box on a picture: all numbers are about it then  (B, or Ctrl + drag)",
+                "Drag a box on an image to restrict all statistics to it  (B, or Ctrl + drag)",
             ) {
                 self.tool = if on { Tool::Camera } else { Tool::Region };
             }
@@ -57,7 +57,7 @@ impl Wall {
                 let button = ui.add(Button::new(RichText::new(text).small()));
                 if button
                     .accessible_name("Clear the box")
-                    .on_hover_text("Numbers are about the whole image again")
+                    .on_hover_text("Compute statistics over the whole image again")
                     .clicked()
                 {
                     commands.push(Command::Wall(WallEdit::Region(None)));
@@ -95,7 +95,7 @@ impl Wall {
                     .accessible_name("Progress of the reference");
             }
         });
-        response.accessible_name("Reference").on_hover_text("What errors are measured against");
+        response.accessible_name("Reference").on_hover_text("The image from which errors are measured");
     }
 }
 
@@ -118,9 +118,9 @@ fn choice(ui: &mut Ui, on: bool, text: &str, name: &str, tip: &str) -> bool {
 fn arrangement_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
     let options = [
         (Arrangement::Grid, "Grid", "Grid", "Side by side  (G)"),
-        (Arrangement::Wipe, "Wipe", "Wipe", "Two over each other, with a divider to drag  (W)"),
-        (Arrangement::Flip, "Flip", "Flip", "One at a time; Tab over the picture goes to the next"),
-        (Arrangement::Difference, "A − B", "Difference", "What two views differ by  (D)"),
+        (Arrangement::Wipe, "Wipe", "Wipe", "Two views with a movable divider  (W)"),
+        (Arrangement::Flip, "Flip", "Flip", "One view at a time; Tab over the image shows the next"),
+        (Arrangement::Difference, "A − B", "Difference", "Difference of two views  (D)"),
     ];
     let current = WindowDoc::of(doc).arrangement;
     group(ui, |ui| {
@@ -174,7 +174,7 @@ fn layer_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, commands: &mut Vec<Command
     response
         .response
         .accessible_name("Layer")
-        .on_hover_text("What is shown of every view: its picture, or a map");
+        .on_hover_text("Shows the image of every view, or a map of its statistics");
 }
 
 fn fairness_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
@@ -182,7 +182,7 @@ fn fairness_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
         (
             Fairness::Time,
             "Equal time",
-            "Every view gets the same CPU seconds of path tracing; statistics are not billed",
+            "Every view gets the same CPU time of path tracing; statistics are not charged",
         ),
         (Fairness::Samples, "Equal samples", "Every view gets the same samples per pixel"),
         (Fairness::Lookups, "Equal look-ups", "Every view gets the same number of evaluations of the medium"),
@@ -196,10 +196,7 @@ fn fairness_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
             }
         }
     });
-    response
-        .response
-        .accessible_name("Fairness")
-        .on_hover_text("What every view gets as much of as every other");
+    response.response.accessible_name("Fairness").on_hover_text("The budget that is equal for all views");
 }
 
 fn reference_menu_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
@@ -212,19 +209,19 @@ fn reference_menu_ui(ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) {
             reference = to;
         }
     };
-    let tip = "No errors. Variances, efficiencies, z-maps and verdicts need none: verdicts come from the other unbiased views";
+    let tip = "No errors. Variances, efficiencies, z-maps and verdicts need no reference: each view is compared with the other unbiased views";
     item(ui, *current == ReferenceDoc::None, "None", tip, ReferenceDoc::None);
-    let tip = "For every view the mean of the other unbiased ones; its noise is taken off. A view has no error where \
-               the others are much noisier than it is";
+    let tip = "For every view, the mean of the other unbiased views; errors are corrected for its noise. A view has no \
+               error where the others are much noisier";
     let text = "The mean of the other unbiased views";
     item(ui, *current == ReferenceDoc::Pooled, text, tip, ReferenceDoc::Pooled);
     for view in 0..doc.view_count() {
         let text = format!("View {}: {}", label(view), super::caption::name(doc, view));
         let to = ReferenceDoc::View { view };
-        item(ui, *current == to, &text, "The picture of this view", to.clone());
+        item(ui, *current == to, &text, "The image of this view", to.clone());
     }
     let on = matches!(current, ReferenceDoc::Render { .. });
-    item(ui, on, "Rendered in the background", "A picture of its own, with its own random numbers", rendered);
+    item(ui, on, "Rendered in the background", "A separate render with its own random numbers", rendered);
     if let ReferenceDoc::Render { estimator, spp, relative_error } = &mut reference {
         let (opened_spp, opened_error) = (*spp, *relative_error);
         ui.indent("render", |ui| {

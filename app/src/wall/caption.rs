@@ -1,4 +1,4 @@
-//! The strip above every picture: which view it is, what it has cost, how far off it is, and its menu.
+//! Caption above every image: label, estimator, error, verdict, sample count and menu of a view.
 
 use super::state::Wall;
 use crate::model::Command;
@@ -15,15 +15,15 @@ use majorant_core::estimator;
 use majorant_core::measure::{Measure, Measured};
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
 
-/// Its height.
+/// Height of the caption, in points.
 pub(super) const HEIGHT: f32 = 26.0;
-/// Widths from which more and more is said; the rest is left to the ranking.
+/// Minimum widths of the caption at which each item is shown.
 const ERROR_FROM: f32 = 150.0;
 const ERROR_NAMED_FROM: f32 = 260.0;
 const VERDICT_FROM: f32 = 380.0;
 const SAMPLES_FROM: f32 = 480.0;
 
-/// A number with three digits, as tables show it.
+/// Formats a number with about three significant digits; `–` if it is not finite.
 #[must_use]
 pub fn digits(value: f64) -> String {
     if !value.is_finite() {
@@ -38,7 +38,7 @@ pub fn digits(value: f64) -> String {
     }
 }
 
-/// `p = .43`, as statisticians write it.
+/// Formats a probability as `p = .43`.
 #[must_use]
 pub fn probability(p: f64) -> String {
     match p {
@@ -49,13 +49,13 @@ pub fn probability(p: f64) -> String {
     }
 }
 
-/// `+2.1 % ± 0.3 %`.
+/// Formats a relative difference and its error as `+2.10 % ± 0.30 %`.
 #[must_use]
 pub fn percent(difference: f64, error: f64) -> String {
     format!("{:+.2} % ± {:.2} %", 100.0 * difference, 100.0 * error)
 }
 
-/// The verdict on a view in a few words, with its colour.
+/// Short text of the verdict on a view, with its colour.
 #[must_use]
 pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
     if let Against::Nothing(_) = standing.against {
@@ -71,7 +71,7 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
         }
         Verdict::Agrees => (format!("agrees ({})", probability(found.p)), palette.good),
         Verdict::Undecided => ("too noisy to tell".into(), palette.weak),
-        // Against views that are all called unbiased it is open whose fault it is.
+        // A difference from the mean of other views does not show which of them is biased.
         Verdict::Differs => {
             let open = matches!(standing.against, Against::Others(_)) && standing.declared_bias.is_none();
             let word = if open { "differs" } else { "biased" };
@@ -80,20 +80,20 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
     }
 }
 
-/// How large a difference is. One may even out over the whole: then the block where it is worst is told of.
+/// Formats the size of a difference: of the mean or, where that is not significant, of the worst block.
 pub(super) fn size(found: &Agreement) -> String {
     match found.worst {
         Some(worst) if found.z.abs() <= 4.0 => {
-            format!("{} in a part", percent(worst.difference, worst.error))
+            format!("{} in one block", percent(worst.difference, worst.error))
         }
         _ => percent(found.difference, found.error),
     }
 }
 
-/// Below this probability an agreement is worth waiting for.
+/// Probability below which an agreement is marked as preliminary.
 const SUSPECT: f64 = 1e-3;
 
-/// Draws the strip; edits go to the commands.
+/// Draws the caption; edits are appended to `commands`.
 pub(super) fn caption_ui(
     ui: &mut Ui,
     rect: Rect,
@@ -129,7 +129,7 @@ pub(super) fn caption_ui(
         PictureId::Reference => {
             chip(ui, "R", palette.weak);
             text(ui, RichText::new("Reference").color(palette.strong));
-            // The samples of the picture below, not those of one that is still to be shown.
+            // Describes the uploaded image, which may be older than the newest reference.
             let uploaded = wall.uploaded(picture).and_then(|uploaded| uploaded.reference.as_ref());
             let origin = uploaded.map_or_else(|| wall.reference_state().text, |r| r.origin.clone());
             text(ui, RichText::new(origin).small().color(palette.weak));
@@ -145,7 +145,7 @@ pub(super) fn caption_ui(
     }
 }
 
-/// The estimator of a view, and what else sets it apart from the scene.
+/// Name of a view: its estimator, and the settings in which it differs.
 pub fn name(doc: &SceneDoc, view: usize) -> String {
     let Some(own) = doc.contender(view) else { return String::new() };
     let mut name =
@@ -186,8 +186,8 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32)
                         + &digits(standing.variance)
                         + if width > SAMPLES_FROM { &efficiency } else { "" },
                     format!(
-                        "± {}\nVariance of a pixel's mean, over pixels and channels, and efficiency, 1 / (variance · CPU \
-                         seconds): neither needs a reference{}",
+                        "± {}\nVariance of the pixel mean, averaged over pixels and channels, and efficiency, \
+                         1 / (variance · CPU seconds). Neither needs a reference{}",
                         digits(standing.variance_error),
                         not_measured(standing, doc).map_or_else(String::new, |why| format!("\n{why}"))
                     ),
@@ -200,7 +200,7 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32)
             ui.add(small(text, colour)).on_hover_text(against(standing));
         }
     }
-    // Beside numbers, those samples that they are about; else those of the picture below.
+    // Sample count of the statistics if they are shown, else of the uploaded image.
     let standing = analysis.standing(&label(view));
     let picture = wall.uploaded(PictureId::View(view)).and_then(|uploaded| uploaded.snapshot.as_ref());
     let current = wall.slots().get(view).map(|slot| slot.state.generation);
@@ -211,10 +211,10 @@ fn numbers_ui(ui: &mut Ui, wall: &Wall, doc: &SceneDoc, view: usize, width: f32)
     }
 }
 
-/// What an error is, and what its ± is made of.
+/// Tooltip of an error: its formula and the two components of its uncertainty.
 pub(super) fn error_tip(measure: &Measure, measured: &Measured) -> String {
     format!(
-        "{}: {}\n± {} from its scatter over pixels, and {} for the reference's own noise, which is taken off",
+        "{}: {}\n± {} from the scatter over pixels, and {} for the noise of the reference, for which it is corrected",
         measure.name,
         measure.formula,
         digits(measured.error),
@@ -222,22 +222,22 @@ pub(super) fn error_tip(measure: &Measure, measured: &Measured) -> String {
     )
 }
 
-/// Why a view that is compared has no error, if there is something to be said.
+/// Explanation of the missing error of a view, if there is one.
 pub(super) fn not_measured(standing: &Standing, doc: &SceneDoc) -> Option<&'static str> {
     match (&doc.compare.reference, &standing.against) {
         (ReferenceDoc::Pooled, Against::Others(_)) if standing.errors.is_empty() => Some(
-            "No error: the noise of the other views is not known well enough, or much larger than this view's own",
+            "No error: the noise of the other views is not known accurately, or much larger than that of this view",
         ),
         _ => None,
     }
 }
 
-/// What the verdict rests on.
+/// Tooltip of a verdict: the reference and the result of the comparison.
 pub(super) fn against(standing: &Standing) -> String {
     let with = match &standing.against {
-        Against::Reference(origin) => format!("Held against the reference ({origin})"),
-        Against::Others(labels) => format!("Held against the mean of {labels}"),
-        Against::Nothing(why) => format!("Held against nothing: {why}"),
+        Against::Reference(origin) => format!("Compared with the reference ({origin})"),
+        Against::Others(labels) => format!("Compared with the mean of {labels}"),
+        Against::Nothing(why) => format!("Not compared: {why}"),
     };
     let bias = standing.declared_bias.map_or_else(String::new, |why| format!("\nBiased by choice: {why}"));
     let found = standing.agreement.map_or_else(String::new, |a| {
@@ -249,14 +249,14 @@ pub(super) fn against(standing: &Standing) -> String {
         )
     });
     let spread = if standing.evenly_spread {
-        "\nIts samples are spread evenly: error bars overstate its errors, so that a small bias may go unseen."
+        "\nIts samples are stratified: error bars overestimate its errors, so that a small bias may not be detected."
     } else {
         ""
     };
     format!("{with}.{found}{bias}{spread}")
 }
 
-/// A view's letter on its colour.
+/// Draws the letter of a view on the view's colour.
 pub(super) fn chip(ui: &mut Ui, text: &str, colour: Color32) {
     Frame::NONE.fill(colour).corner_radius(CornerRadius::same(3)).inner_margin(Margin::symmetric(5, 0)).show(
         ui,
@@ -267,7 +267,7 @@ pub(super) fn chip(ui: &mut Ui, text: &str, colour: Color32) {
     );
 }
 
-/// What can be done with a view.
+/// Draws the menu of a view.
 fn menu_ui(ui: &mut Ui, view: usize, doc: &SceneDoc, commands: &mut Vec<Command>) {
     let count = doc.view_count();
     let button = ui.menu_button(RichText::new("…").strong(), |ui| {
@@ -284,22 +284,22 @@ fn menu_ui(ui: &mut Ui, view: usize, doc: &SceneDoc, commands: &mut Vec<Command>
         item(ui, view + 1 < count, "Move to the right", WallEdit::Swap(view, view + 1));
         ui.separator();
         let is_reference = doc.compare.reference == ReferenceDoc::View { view };
-        item(ui, !is_reference, "Make it the reference", WallEdit::Reference(ReferenceDoc::View { view }));
-        item(ui, doc.compare.baseline != view, "Make it the baseline", WallEdit::Baseline(view));
+        item(ui, !is_reference, "Use as reference", WallEdit::Reference(ReferenceDoc::View { view }));
+        item(ui, doc.compare.baseline != view, "Use as baseline", WallEdit::Baseline(view));
         ui.separator();
         let own = view.checked_sub(1).and_then(|i| doc.compare.views.get(i));
         let camera = own.is_some_and(|v| v.camera.is_some());
         let display = own.is_some_and(|v| v.view.is_some());
-        let text = if camera { "Share the scene's camera" } else { "Give it a camera of its own" };
+        let text = if camera { "Use the scene's camera" } else { "Use a separate camera" };
         item(ui, view > 0, text, WallEdit::OwnCamera(view, !camera));
-        let text = if display { "Share the scene's exposure" } else { "Give it an exposure of its own" };
+        let text = if display { "Use the scene's exposure" } else { "Use a separate exposure" };
         item(ui, view > 0, text, WallEdit::OwnDisplay(view, !display));
     });
     let name = format!("Menu of view {}", label(view));
     button
         .response
         .accessible_name(name)
-        .on_hover_text("Duplicate, remove, move, make it the reference or baseline");
+        .on_hover_text("Duplicate, remove or move the view, or use it as reference or baseline");
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The pictures: side by side, over each other, one at a time, or their difference.
+//! Image area: views in a grid, with a divider, one at a time, or as a difference.
 
 use super::caption::{self, caption_ui};
 use super::legend::{self, legend_ui};
@@ -19,22 +19,22 @@ use majorant_core::estimator;
 use majorant_core::scene::{Camera, CameraDoc, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
 
-/// Gap between pictures.
+/// Gap between images, in points.
 const GAP: f32 = 2.0;
 
-/// What came of a frame.
+/// Result of one frame of the image area.
 #[derive(Default)]
 pub struct Seen {
-    /// The camera of a view, if a gesture moved it.
+    /// View and its new camera, if a gesture moved it.
     pub camera: Option<(usize, CameraDoc)>,
-    /// The pixel under the pointer, and the sight that it is on.
+    /// Image and pixel under the pointer.
     pub pixel: Option<(PictureId, [usize; 2])>,
-    /// Points per pixel.
+    /// Screen points per image pixel.
     pub zoom: f32,
 }
 
 impl Wall {
-    /// Draws the pictures and reads the gestures on them.
+    /// Draws the images and handles their gestures.
     pub fn cells_ui(&mut self, ui: &mut Ui, doc: &SceneDoc, commands: &mut Vec<Command>) -> Seen {
         let (mut rect, _) = ui.allocate_exact_size(ui.available_size(), egui::Sense::hover());
         ui.painter().rect_filled(rect, 0.0, Palette::get(ui).canvas);
@@ -113,7 +113,7 @@ impl Wall {
             self.split = split;
         }
         self.take(outcome, PictureId::View(a), seen, commands);
-        // Each picture says at its own side of the divider what it is.
+        // The name of each view is drawn at its side of the divider.
         let x = egui::lerp(rect.x_range(), self.split);
         let mut side = |rect: Rect, layout: Layout, view: usize| {
             let mut child = ui.new_child(UiBuilder::new().max_rect(rect.shrink(8.0)).layout(layout));
@@ -205,7 +205,7 @@ impl Wall {
         }
     }
 
-    /// What has to be known about a picture to read it rightly, in its corner.
+    /// Draws badges and messages over an image: bias, preview, build failure, missing reference or map.
     fn remarks_ui(&self, ui: &mut Ui, canvas: Rect, picture: PictureId, doc: &SceneDoc) {
         let palette = Palette::get(ui);
         let area = Rect::from_min_size(canvas.min + vec2(10.0, 8.0), vec2(canvas.width() - 20.0, 22.0));
@@ -215,7 +215,7 @@ impl Wall {
             let state = self.reference_state();
             let text = state.problem.unwrap_or_else(|| {
                 let n = majorant_core::compare::LEAST_SAMPLES;
-                format!("It is shown, and errors are measured, from {n} samples per pixel on.")
+                format!("The reference is shown and used from {n} samples per pixel on.")
             });
             return empty_ui(ui, canvas, "No reference yet", &text);
         }
@@ -230,7 +230,7 @@ impl Wall {
                 badge(&mut child, palette.accent, "preview");
             }
             if let Some(Status::Failed(text)) = self.slots().get(view).map(|s| &s.state.status) {
-                // Views that fail alike need to say so once.
+                // The same message is shown for one view only.
                 let said =
                     self.slots().iter().take(view).any(|s| s.state.status == Status::Failed(text.clone()));
                 if !said || WindowDoc::of(doc).arrangement != Arrangement::Grid {
@@ -244,17 +244,17 @@ impl Wall {
             let text = match (map.needs_reference, picture) {
                 (true, PictureId::View(_)) if unchosen => "Errors need a reference: choose one above.",
                 (true, PictureId::View(_)) => {
-                    "Nothing to hold this view against yet: choose a reference above, or add a view that shows the \
-                     same image."
+                    "There is nothing to compare this view with yet: choose a reference above, or add a view that shows \
+                     the same image."
                 }
-                _ => "A few samples per pixel more, and this map appears.",
+                _ => "This map needs a few more samples per pixel.",
             };
             empty_ui(ui, canvas, map.name, text);
         }
     }
 }
 
-/// Cells for pictures of an aspect ratio, so that these are as large as can be.
+/// Layout of `count` cells that maximizes the size of images with a given aspect ratio.
 fn grid(rect: Rect, count: usize, aspect: f32, captioned: bool) -> Vec<Rect> {
     let count = count.max(1);
     let caption = if captioned { caption::HEIGHT } else { 0.0 };
@@ -269,7 +269,7 @@ fn grid(rect: Rect, count: usize, aspect: f32, captioned: bool) -> Vec<Rect> {
         let room = size(columns) - vec2(0.0, caption);
         room.x.min(room.y * aspect)
     };
-    // Empty cells look like something is missing: full rows may cost a little size.
+    // Empty cells are penalized: full rows are preferred to slightly larger images.
     let score = |columns: usize| {
         let cells = columns * count.div_ceil(columns);
         picture(columns) * (count as f32 / cells as f32).sqrt()
@@ -284,7 +284,7 @@ fn grid(rect: Rect, count: usize, aspect: f32, captioned: bool) -> Vec<Rect> {
         .collect()
 }
 
-/// Why there is nothing to see, and what to do.
+/// Draws a title and an explanation in the middle of an empty canvas.
 fn empty_ui(ui: &mut Ui, canvas: Rect, title: &str, text: &str) {
     let palette = Palette::get(ui);
     let width = (canvas.width() - 32.0).clamp(100.0, 320.0);
@@ -298,7 +298,7 @@ fn empty_ui(ui: &mut Ui, canvas: Rect, title: &str, text: &str) {
     child.add(Label::new(RichText::new(text).small().color(palette.text)).wrap().selectable(false));
 }
 
-/// Why nothing new is shown, over the last picture.
+/// Draws the message of a failed build over the last image.
 fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
     let palette = Palette::get(ui);
     let small = canvas.width() < 400.0;
@@ -318,9 +318,9 @@ fn failure_ui(ui: &mut Ui, canvas: Rect, text: &str, pictured: bool) {
         if small {
             return;
         }
-        let kept = "Your edits are kept: correct them, or take them back with Ctrl + Z.";
+        let kept = "Your edits are kept: correct them, or undo them with Ctrl + Z.";
         let kept =
-            if pictured { format!("The last picture is shown, dimmed. {kept}") } else { kept.to_owned() };
+            if pictured { format!("The last image is shown, dimmed. {kept}") } else { kept.to_owned() };
         ui.add(Label::new(RichText::new(kept).small().color(palette.weak)).wrap());
     });
 }
@@ -340,7 +340,7 @@ mod tests {
                 assert!(cells[..i].iter().all(|b| !a.shrink(0.5).intersects(b.shrink(0.5))));
             }
         }
-        // Two wide pictures stand one above the other, two upright ones side by side.
+        // Two wide images are stacked, two tall ones are placed side by side.
         assert_eq!(grid(rect, 2, 3.0, false)[1].left(), rect.left());
         assert_eq!(grid(rect, 2, 0.5, false)[1].top(), rect.top());
     }

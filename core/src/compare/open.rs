@@ -182,7 +182,7 @@ mod tests {
         let (mut doc, file) = rendered(folder.path());
         let (reference, notes) = opened(&file, &doc);
         assert!(reference.unwrap().fits(&Library::default().fingerprint(&doc)));
-        assert!(notes.len() == 1 && notes[0].contains("seed 0, as is view A"), "{notes:?}");
+        assert!(notes.len() == 1 && notes[0].contains("seed 0, like view A"), "{notes:?}");
         doc.render.seed = 77;
         doc.render.set_limits(Limits::samples(9));
         assert!(opened(&file, &doc).1.is_empty());

@@ -96,9 +96,8 @@ pub(super) fn family<E: Estimator>(
     let grey = scene.achromatic && s.path.heuristics.components != Heuristic::HeroOnly;
     match (s.mode, grey) {
         (Mode::Spectral, false) => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, context),
-        (Mode::Spectral, true) => in_grey_medium::<E, Grey<true>>(scene, s, at, context),
         (Mode::Rgb, false) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
-        (Mode::Rgb, true) => in_grey_medium::<E, Grey<false>>(scene, s, at, context),
+        (_, true) => in_grey_medium::<E>(scene, s, at, context),
     }
 }
 
@@ -130,15 +129,15 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
 }
 
 /// As [`in_medium`], without a kernel for RGB grids, which are never achromatic.
-fn in_grey_medium<E: Estimator, C: Components<1>>(
+fn in_grey_medium<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
     context: PathContext<'_>,
 ) -> PathEstimate {
     match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, 1>(m, scene, s, at, context),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, 1>(m, scene, s, at, context),
+        AnyMedium::Homogeneous(m) => path::<E, _, Grey, 1>(m, scene, s, at, context),
+        AnyMedium::DensityGrid(m) => path::<E, _, Grey, 1>(m, scene, s, at, context),
         AnyMedium::RgbGrids(_) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
     }
 }
@@ -154,7 +153,8 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let mut trace = Trace::new(Sampler::of_kind(settings.sampler, settings.seed, pixel, at.sample), context);
     let (jitter, u) = trace.sampler.camera();
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
-    let components = C::sample(u, settings.wavelengths);
+    let wavelengths = (settings.mode == Mode::Spectral).then_some(settings.wavelengths);
+    let components = C::sample(u, wavelengths);
     trace.tell(move || Note::Camera { ray, jitter, u, carried: components.carried() });
     let (medium, settings) = (medium.local(&components), settings.path);
     let radiance = if const { E::SHARED_MAJORANT } {

@@ -67,8 +67,7 @@ impl Estimator for EquiangularMis {
                 && vertices + 1 < world.settings.max_depth
             {
                 trace.tell(move || Note::EquiangularVertex);
-                radiance +=
-                    equiangular_connection(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
+                radiance += equiangular_connection(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
                 trace.tell(move || Note::EquiangularVertexEnds);
             }
 

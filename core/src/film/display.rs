@@ -1,16 +1,17 @@
-//! From linear radiance to display colour: exposure, tone curve, gamma. Shared by window and PNG.
+//! Display transform from linear radiance to display colour: exposure, tone curve, gamma. Shared by window
+//! and PNG export.
 
 use serde::{Deserialize, Serialize};
 
-/// How linear radiance becomes display colour.
+/// Settings of the display transform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ViewDoc {
-    /// Stops: radiance is multiplied by 2 to this power.
+    /// Exposure in stops: radiance is multiplied by 2 to this power.
     pub exposure_ev: f32,
-    /// The curve that maps bright radiance into the display's range.
+    /// Tone curve.
     pub tone: ToneCurve,
-    /// Display gamma; absent: the sRGB curve.
+    /// Display gamma. Absent: the sRGB curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gamma: Option<f32>,
 }
@@ -21,20 +22,20 @@ impl Default for ViewDoc {
     }
 }
 
-/// The curve that maps bright radiance into the display's range.
+/// Tone curve, which maps radiance into the display's range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToneCurve {
-    /// Clips at 1: what you see is what was computed.
+    /// Clips at 1, without tone mapping.
     Linear,
-    /// x / (1 + x) by luminance (Reinhard et al. 2002).
+    /// x / (1 + luminance), after Reinhard et al. 2002.
     Reinhard,
-    /// A soft shoulder and toe, per channel (Narkowicz's fit of ACES).
+    /// Filmic curve with shoulder and toe, per channel (Narkowicz's fit of ACES).
     #[default]
     Filmic,
 }
 
-/// A display transform, ready to be applied to many pixels.
+/// Display transform, prepared for application to many pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct DisplayTransform {
     exposure: f32,
@@ -44,19 +45,19 @@ pub struct DisplayTransform {
 }
 
 impl DisplayTransform {
-    /// The transform that a document asks for.
+    /// Creates the transform from its settings.
     #[must_use]
     pub fn new(view: &ViewDoc) -> Self {
         Self { exposure: view.exposure_ev.exp2(), tone: view.tone, inverse_gamma: view.gamma.map(f32::recip) }
     }
 
-    /// Display colour of one linear sRGB value, 8 bits per channel. What is not finite shows magenta.
+    /// Converts one linear sRGB value to 8 bits per channel. Non-finite values become magenta.
     #[must_use]
     pub fn encode(&self, linear: [f32; 3]) -> [u8; 3] {
         if linear.iter().any(|x| !x.is_finite()) {
             return [255, 0, 255];
         }
-        // Bounded, so that no curve divides infinity by infinity.
+        // Bounded, so that no tone curve divides infinity by infinity.
         let exposed = linear.map(|x| (x * self.exposure).clamp(0.0, 1e15));
         self.toned(exposed).map(|x| {
             let x = x.clamp(0.0, 1.0);

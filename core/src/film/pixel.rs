@@ -1,16 +1,16 @@
-//! One pixel's running moments.
+//! Running moments of one pixel.
 
-/// Running moments of linear sRGB samples, by Welford's update (1962) and its extension to the third
-/// moment (Pébay 2008).
+/// Running moments of linear sRGB samples, by Welford's update (1962) and its extension to the third moment
+/// (Pébay 2008).
 ///
-/// Grey is the mean of the three channels, chroma what is perpendicular to it: in the orthonormal opponent
-/// basis (R+G+B)/√3, (R−G)/√2, (R+G−2B)/√6 the squared deviations of the first and of the other two add up
-/// to those of R, G and B.
+/// Grey is the mean of the three channels, and chroma the component perpendicular to it: in the orthonormal
+/// opponent basis (R+G+B)/√3, (R−G)/√2, (R+G−2B)/√6 the squared deviations of grey and chroma add up to those
+/// of R, G and B.
 #[derive(Clone, Copy, Debug, Default, PartialEq, bytemuck::Zeroable)]
 pub struct Pixel {
-    /// Samples added.
+    /// Number of samples added.
     pub count: u64,
-    /// Evaluations of the medium's coefficients for all samples, those left out too.
+    /// Evaluations of the medium's coefficients for all samples, including rejected ones.
     pub lookups: u64,
     /// Mean of the samples.
     pub mean: [f64; 3],
@@ -20,12 +20,13 @@ pub struct Pixel {
     pub chroma_m2: f64,
     /// Σ (grey − mean)³.
     pub grey_m3: f64,
-    /// Σ q² of what each sample has added to the mean of `m2` over channels: how well it is known.
+    /// Σ q², with q the increment of the mean of `m2` over channels by each sample: a measure of the accuracy
+    /// of `m2`.
     pub growth_m2: f64,
 }
 
 impl Pixel {
-    /// Adds one sample. The caller has checked that it is finite.
+    /// Adds one sample, which has to be finite.
     pub fn add(&mut self, sample: [f32; 3]) {
         let before = self.count as f64;
         self.count += 1;
@@ -62,7 +63,8 @@ impl Pixel {
         self.m2.map(|m2| m2 / (n * (n - 1.0)))
     }
 
-    /// The part of the mean variance over channels that lies perpendicular to grey; infinite below two samples.
+    /// Part of the variance of the mean, averaged over channels, that is perpendicular to grey; infinite
+    /// below two samples.
     #[must_use]
     pub fn chroma_variance_of_mean(&self) -> f64 {
         if self.count < 2 {
@@ -83,10 +85,10 @@ impl Pixel {
         self.grey_m3 / (n * (n - 1.0) * (n - 2.0))
     }
 
-    /// Variance of the estimate of the variance of the mean (its mean over channels).
+    /// Variance of the estimated variance of the mean, averaged over channels. Infinite below three samples.
     ///
-    /// What sample i adds to Σ(x − mean)² has the expectation σ² for every i ≥ 2, and for normal samples
-    /// the additions are independent (Helmert), so their own scatter tells. Infinite below three samples.
+    /// The increment of Σ(x − mean)² by sample i has the expectation σ² for every i ≥ 2, and for normal
+    /// samples the increments are independent (Helmert), so the variance follows from their spread.
     #[must_use]
     pub fn variance_of_variance(&self) -> f64 {
         if self.count < 3 {
@@ -134,7 +136,7 @@ mod tests {
         let expected = 1.0 / billions as f64;
         assert!((pixel.variance_of_mean()[0] / expected - 1.0).abs() < 1e-6);
         assert!(pixel.third_moment_of_mean().is_finite() && pixel.variance_of_variance().is_finite());
-        // As much memory as with 32 bits, which were padded.
+        // The same size as with 32-bit counters, which were padded.
         assert_eq!(size_of::<Pixel>(), 88);
     }
 
@@ -164,7 +166,7 @@ mod tests {
         assert!(grey_samples.chroma_variance_of_mean() < 1e-12);
     }
 
-    /// Over many pixels the variance of the variance is that of the estimates themselves.
+    /// Over many pixels the estimated variance of the variance equals the variance of the estimates.
     #[test]
     fn the_spread_of_the_variance_is_what_its_scatter_is() {
         use crate::math::Sampler;
@@ -172,7 +174,8 @@ mod tests {
         let all: Vec<Pixel> = (0..pixels)
             .map(|p| {
                 let sample = |s| {
-                    // Skewed, as light is: an exponential, alike in all channels but for a factor.
+                    // Skewed like typical path contributions: an exponential, equal in all channels up to a
+                    // factor.
                     let x = Sampler::new(5, p, s).next_optical_depth();
                     [x, 0.5 * x, 2.0 * x]
                 };
@@ -184,9 +187,9 @@ mod tests {
         let average = mean(&variance);
         let scatter = mean(&|p| (variance(p) - average).powi(2));
         let stated = mean(&Pixel::variance_of_variance);
-        // The additions of one firefly hang together, a little: within a quarter.
+        // The increments of one firefly are slightly correlated: within a quarter.
         assert!((stated / scatter - 1.0).abs() < 0.25, "{stated} {scatter}");
-        // An exponential of mean 1 has μ₃ = 2; grey is 3.5/3 of it.
+        // An exponential of mean 1 has μ₃ = 2; grey is 3.5/3 times it.
         let third = mean(&Pixel::third_moment_of_mean) * (n * n) as f64;
         let expected = 2.0 * (3.5f64 / 3.0).powi(3);
         assert!((third / expected - 1.0).abs() < 0.1, "{third} {expected}");

@@ -1,9 +1,9 @@
-//! What a session publishes: an immutable picture with its numbers.
+//! Immutable snapshots of a film, as published by a session.
 
 use super::{Film, Pixel};
 use rayon::prelude::*;
 
-/// Where a non-finite sample arose.
+/// Location of a non-finite sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NonFinite {
     /// Column.
@@ -14,25 +14,25 @@ pub struct NonFinite {
     pub sample: u64,
 }
 
-/// What rendering has cost so far, and what went wrong in it.
+/// Cost and errors of rendering so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Paths traced.
     pub paths: u64,
     /// Evaluations of the medium's coefficients (density look-ups).
     pub lookups: u64,
-    /// Of those, at collisions where the extinction exceeded the majorant.
+    /// Evaluations at collisions where the extinction exceeded the majorant, included in `lookups`.
     pub exceeded: u64,
-    /// Samples that were not finite and were left out.
+    /// Non-finite samples, which were rejected.
     pub non_finite: u64,
-    /// The first few of them.
+    /// Locations of the first non-finite samples.
     pub located: Vec<NonFinite>,
 }
 
 impl Tally {
     const LOCATED: usize = 16;
 
-    /// Counts a sample that was not finite.
+    /// Counts a non-finite sample.
     pub fn reject(&mut self, at: NonFinite) {
         self.non_finite += 1;
         if self.located.len() < Self::LOCATED {
@@ -51,68 +51,69 @@ impl Tally {
     }
 }
 
-/// An immutable picture of a film, published at the end of a pass.
+/// An immutable image of a film, published at the end of a pass.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Which submission it belongs to.
+    /// Generation of the submission that it belongs to.
     pub generation: u64,
-    /// Columns.
+    /// Width in pixels.
     pub width: usize,
-    /// Rows.
+    /// Height in pixels.
     pub height: usize,
     /// Mean linear sRGB, row by row from the top.
     pub mean: Vec<[f32; 3]>,
     /// Standard error of the mean; infinite below two samples.
     pub standard_error: Vec<[f32; 3]>,
-    /// What else is known about every pixel's noise; empty for a coarse preview.
+    /// Further noise statistics per pixel; empty for a coarse preview.
     pub noise: Vec<Noise>,
-    /// Samples per pixel in it; 0 for a coarse preview.
+    /// Samples per pixel; 0 for a coarse preview.
     pub spp: u64,
-    /// In a coarse preview, the edge in pixels of the blocks that share one sample.
+    /// Edge length in pixels of the blocks that share one sample, in a coarse preview.
     pub coarse: Option<u32>,
-    /// Seconds of rendering, pauses left out.
+    /// Seconds of rendering, without pauses.
     pub seconds: f64,
-    /// CPU seconds of all workers.
+    /// CPU seconds summed over all worker threads.
     pub cpu_seconds: f64,
-    /// Paths, look-ups, non-finite samples.
+    /// Paths, look-ups and non-finite samples.
     pub tally: Tally,
-    /// Worker threads.
+    /// Number of worker threads.
     pub threads: usize,
-    /// Relative standard error of `cpu_seconds`, from its scatter over passes; infinite before the second.
+    /// Relative standard error of `cpu_seconds`, from its variation over passes; infinite before the second
+    /// pass.
     pub cost_error: f64,
-    /// Names the image that the samples converge to; empty if nobody asked for it.
+    /// Identifier of the image that the samples converge to; empty if not requested.
     pub target: String,
 }
 
-/// A pixel's noise beyond its standard error. Variances are means over the three channels.
+/// Noise statistics of a pixel besides its standard error. Variances are means over the three channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
-    /// The part of the variance of the mean that is perpendicular to grey.
+    /// Part of the variance of the mean that is perpendicular to grey.
     pub chroma_variance: f32,
     /// Third central moment of the mean's grey.
     pub third_moment: f32,
     /// Standard error of the variance of the mean.
     pub variance_error: f32,
-    /// Samples in the mean.
+    /// Number of samples.
     pub samples: u64,
-    /// Look-ups of the medium for all of them.
+    /// Look-ups of the medium for all samples.
     pub lookups: f32,
 }
 
-/// What a film shows, at single precision.
+/// Images of a film in single precision.
 #[derive(Clone, Debug, Default)]
 pub struct Images {
     /// Mean linear sRGB.
     pub mean: Vec<[f32; 3]>,
-    /// Its standard error.
+    /// Standard error of the mean.
     pub standard_error: Vec<[f32; 3]>,
-    /// What else is known about its noise.
+    /// Further noise statistics.
     pub noise: Vec<Noise>,
 }
 
 impl Snapshot {
-    /// Root mean square of the standard error over the size of the image's mean: how noisy the whole is. Pixels without a
-    /// finite value are left out; infinite where the mean is zero, or no pixel has a value.
+    /// Root mean square of the standard error, relative to the mean of the image. Pixels without a finite
+    /// value are excluded; infinite where the mean is zero, or no pixel has a value.
     #[must_use]
     pub fn relative_error(&self) -> f64 {
         let (mut variance, mut mean, mut known) = (0.0, 0.0, 0u64);
@@ -124,7 +125,7 @@ impl Snapshot {
         if mean == 0.0 { f64::INFINITY } else { (variance * known as f64).sqrt() / mean.abs() }
     }
 
-    /// The image's mean colour.
+    /// Mean colour of the image.
     #[must_use]
     pub fn mean_colour(&self) -> [f64; 3] {
         let mut sum = [0.0; 3];
@@ -138,7 +139,7 @@ impl Snapshot {
 }
 
 impl Images {
-    /// Reads a film, on the threads of the pool that it is called in.
+    /// Converts a film, on the threads of the current pool.
     #[must_use]
     pub fn of(film: &Film) -> Self {
         let (mean, (standard_error, noise)) =
@@ -148,7 +149,7 @@ impl Images {
 }
 
 fn shown(p: &Pixel) -> [f32; 3] {
-    // A pixel all of whose samples were rejected has no value; it shows as one.
+    // A pixel whose samples were all rejected has no value and becomes NaN.
     if p.count == 0 { [f32::NAN; 3] } else { p.mean.map(|x| x as f32) }
 }
 

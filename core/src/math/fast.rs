@@ -1,11 +1,11 @@
-//! Elementary functions for the inner loop: branchless polynomials, good to a few units in the last
-//! place, which the compiler inlines and lays over all components of a path at once.
+//! Elementary functions for inner loops: branchless polynomials, accurate to a few units in the last place,
+//! which the compiler inlines and vectorises over all components of a path.
 //!
-//! They also give the same bits everywhere, which a platform's own library does not promise.
+//! They also return the same bits on every platform, which the standard library does not guarantee.
 
 use std::f32::consts::{LN_2, LOG2_E};
 
-/// The nearest integer, ties to even, for |x| < 2^22. The library's own needs a call where the processor has no
+/// Nearest integer, ties to even, for |x| < 2^22. The library function is a call on processors without an
 /// instruction for it.
 #[inline]
 fn nearest(x: f32) -> f32 {
@@ -38,7 +38,7 @@ pub fn ln(x: f32) -> f32 {
 #[must_use]
 #[inline]
 pub fn exp(x: f32) -> f32 {
-    // ln 2 in two parts, the first of few digits, so that k times it is exact.
+    // ln 2 in two parts, the first with few digits, so that its product with k is exact.
     const HIGH: f32 = 0.693_359_4;
     const LOW: f32 = -2.121_944_4e-4;
     let x = x.clamp(-104.0, 90.0);
@@ -51,7 +51,7 @@ pub fn exp(x: f32) -> f32 {
     let p = p * r + 1.666_666_5e-1;
     let p = p * r + 0.5;
     let e = p * r * r + r + 1.0;
-    // 2^k in two factors, so that results near the smallest and largest numbers are reached too.
+    // 2^k in two factors, so that results near the smallest and largest numbers are representable.
     let k = k as i32;
     let half = k >> 1;
     let power = |n: i32| f32::from_bits(((n + 127) as u32) << 23);
@@ -62,7 +62,7 @@ pub fn exp(x: f32) -> f32 {
 #[must_use]
 #[inline]
 pub fn sin_cos_turns(u: f32) -> (f32, f32) {
-    // The nearest quarter turn, and an angle of at most an eighth about it.
+    // The nearest quarter turn, and a remainder of at most an eighth of a turn.
     let quarter = nearest(4.0 * u);
     let x = (u - 0.25 * quarter) * std::f32::consts::TAU;
     let z = x * x;

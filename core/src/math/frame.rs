@@ -1,9 +1,9 @@
-//! An orthonormal frame about a direction.
+//! Orthonormal frames.
 
 use super::{PolarAngle, sin_cos_turns};
 use glam::Vec3;
 
-/// Right-handed orthonormal axes whose third is a given unit vector.
+/// Right-handed orthonormal frame whose z axis is a given unit vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     x: Vec3,
@@ -12,7 +12,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Axes about the unit vector `z` (Duff et al. 2017, "Building an orthonormal basis, revisited").
+    /// Creates a frame about the unit vector `z` (Duff et al. 2017, "Building an orthonormal basis,
+    /// revisited").
     #[must_use]
     pub fn about(z: Vec3) -> Self {
         let sign = 1.0f32.copysign(z.z);
@@ -25,25 +26,25 @@ impl Frame {
         }
     }
 
-    /// The unit vector that the frame is about.
+    /// The z axis.
     #[must_use]
     pub fn axis(&self) -> Vec3 {
         self.z
     }
 
-    /// A vector given along the frame's axes, in the space of its `z`.
+    /// Transforms a vector from frame coordinates to the space of `z`.
     #[must_use]
     pub fn to_world(&self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    /// A vector in the space of the frame's `z`, along its axes.
+    /// Transforms a vector from the space of `z` to frame coordinates.
     #[must_use]
     pub fn to_local(&self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
-    /// The unit vector at an angle from `z`, at an azimuth in turns.
+    /// Unit vector at a polar angle from `z` and an azimuth in turns.
     #[must_use]
     pub fn polar(&self, theta: PolarAngle, turns: f32) -> Vec3 {
         let (sin_phi, cos_phi) = sin_cos_turns(turns);

@@ -1,4 +1,4 @@
-//! Geometry and randomness that nothing else in the crate is below of.
+//! Geometry and random numbers, the lowest layer of the crate.
 
 mod bits;
 mod fast;
@@ -17,10 +17,10 @@ pub use sampler::{Sampler, SamplerKind, SideStream, numbers_of_point};
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
 
-/// 1/(4π): the density of the uniform distribution over directions, per steradian.
+/// Density of the uniform distribution over directions, 1/(4π) per steradian.
 pub const INV_4PI: f32 = 1.0 / (4.0 * PI);
 
-/// A direction uniform over the sphere, from two uniform numbers.
+/// Samples a direction uniformly over the sphere, from two uniform numbers.
 #[must_use]
 pub fn uniform_direction(u: Vec2) -> Vec3 {
     let z = 1.0 - 2.0 * u.x;
@@ -29,7 +29,7 @@ pub fn uniform_direction(u: Vec2) -> Vec3 {
     Vec3::new(r * cos, r * sin, z)
 }
 
-/// A direction about +z with density cos θ/π, from two uniform numbers.
+/// Samples a direction about +z with density cos θ/π, from two uniform numbers.
 #[must_use]
 pub fn cosine_direction(u: Vec2) -> Vec3 {
     let r = u.x.sqrt();

@@ -1,9 +1,9 @@
-//! Angles that keep their digits at both ends.
+//! Polar angles that stay accurate near 0 and π.
 
 use glam::Vec3;
 
-/// An angle θ from 0 to π, as 1 − cos θ and 1 + cos θ: near 0 and near π the one that is small keeps
-/// the digits that a cosine would round away, which sharp scattering lobes depend on.
+/// An angle θ from 0 to π, stored as 1 − cos θ and 1 + cos θ. Near 0 and near π the smaller of the two keeps
+/// the digits that a cosine would lose to rounding, which narrow scattering lobes depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolarAngle {
     /// 1 − cos θ.
@@ -13,37 +13,37 @@ pub struct PolarAngle {
 }
 
 impl PolarAngle {
-    /// From 1 − cos θ, exact near 0.
+    /// Creates an angle from 1 − cos θ, exact near 0.
     #[must_use]
     pub fn from_one_minus_cos(one_minus_cos: f32) -> Self {
         Self { one_minus_cos, one_plus_cos: 2.0 - one_minus_cos }
     }
 
-    /// From 1 + cos θ, exact near π.
+    /// Creates an angle from 1 + cos θ, exact near π.
     #[must_use]
     pub fn from_one_plus_cos(one_plus_cos: f32) -> Self {
         Self { one_minus_cos: 2.0 - one_plus_cos, one_plus_cos }
     }
 
-    /// Between two unit vectors: |a ∓ b|²/2 = 1 ∓ a·b, without cancellation.
+    /// Angle between two unit vectors: |a ∓ b|²/2 = 1 ∓ a·b, without cancellation.
     #[must_use]
     pub fn between(a: Vec3, b: Vec3) -> Self {
         Self { one_minus_cos: 0.5 * (a - b).length_squared(), one_plus_cos: 0.5 * (a + b).length_squared() }
     }
 
-    /// cos θ.
+    /// Cosine of θ.
     #[must_use]
     pub fn cos(&self) -> f32 {
         0.5 * (self.one_plus_cos - self.one_minus_cos)
     }
 
-    /// sin θ.
+    /// Sine of θ.
     #[must_use]
     pub fn sin(&self) -> f32 {
         (self.one_minus_cos * self.one_plus_cos).max(0.0).sqrt()
     }
 
-    /// π − θ.
+    /// The angle π − θ.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         Self { one_minus_cos: self.one_plus_cos, one_plus_cos: self.one_minus_cos }

@@ -1,45 +1,45 @@
-//! Rays, and what of them lies in the unit box.
+//! Rays, and their intersection with the unit cube.
 
 use glam::{Affine3A, Vec3, Vec3A};
 
-/// A half-line. In world space its direction has unit length, so that `t` is a distance; a ray taken
-/// into another space keeps its `t` and may have a direction of any length.
+/// A ray. In world space its direction has unit length, so that `t` is a distance. A ray transformed to
+/// another space keeps its `t` and may have a direction of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts.
+    /// Start point.
     pub origin: Vec3,
-    /// Where it goes.
+    /// Direction.
     pub direction: Vec3,
 }
 
 impl Ray {
-    /// The point at parameter `t`.
+    /// Returns the point at parameter `t`.
     #[must_use]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }
 }
 
-/// The part of a ray inside the cube from (0,0,0) to (1,1,1).
+/// Segment of a ray inside the cube from (0,0,0) to (1,1,1).
 #[derive(Clone, Copy, Debug)]
 pub struct BoxRay {
-    /// Where it enters, or starts inside.
+    /// Entry point, or the ray's origin if that is inside.
     pub origin: Vec3A,
-    /// The ray's direction, without components that are exactly zero.
+    /// Direction of the ray, with zero components replaced by tiny ones.
     pub direction: Vec3A,
-    /// One over each component of it.
+    /// Reciprocals of the components of the direction.
     pub inverse: Vec3A,
-    /// Parameter at which it leaves, counted from `origin`; a walk that counts from far away would lose digits.
+    /// Parameter of the exit, relative to `origin`; counting from a distant ray origin would lose digits.
     pub t_end: f32,
 }
 
 impl BoxRay {
-    /// The part of a ray of another space, with 0 ≤ t ≤ t_max, inside the cube, and the parameter at which
-    /// that begins (slab test); `None` if the ray misses it.
+    /// Clips a ray of another space, with 0 ≤ t ≤ t_max, to the cube (slab test). Returns the parameter of
+    /// the entry and the segment; `None` if the ray misses the cube.
     #[must_use]
     #[inline]
     pub fn enter(ray: &Ray, box_from_ray: &Affine3A, t_max: f32) -> Option<(f32, Self)> {
-        // A direction this close to zero moves nothing, and its inverse is finite: no 0 · ∞ anywhere.
+        // A component this small has no effect, and its inverse is finite, so that 0 · ∞ never occurs.
         const TINY: Vec3A = Vec3A::splat(1e-20);
         let origin = box_from_ray.transform_point3a(ray.origin.into());
         let direction = box_from_ray.transform_vector3a(ray.direction.into());
@@ -49,7 +49,7 @@ impl BoxRay {
         let b = a + inverse;
         let t0 = a.min(b).max_element().max(0.0);
         let t1 = a.max(b).min_element().min(t_max);
-        // Rays with a coordinate that is not a number would otherwise slip through every comparison.
+        // Rejects rays with NaN coordinates, for which every comparison fails.
         if t0 < t1 && (origin + direction).is_finite() {
             let origin = origin + direction * t0;
             Some((t0, Self { origin, direction, inverse, t_end: t1 - t0 }))
@@ -58,7 +58,7 @@ impl BoxRay {
         }
     }
 
-    /// The point at parameter `t`.
+    /// Returns the point at parameter `t`.
     #[must_use]
     #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(interval([0.5, 0.5, 0.5], [0.0, 0.0, 2.0]), Some((0.0, 0.25)));
         assert_eq!(interval([-1.0, 1.5, 0.5], [1.0, 0.0, 0.0]), None);
         assert_eq!(interval([2.0, 0.5, 0.5], [1.0, 0.0, 0.0]), None);
-        // Along a face, and with what is not a number.
+        // Along a face, and with NaN.
         assert_eq!(interval([-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Some((1.0, 2.0)));
         assert_eq!(interval([f32::NAN, 0.5, 0.5], [1.0, 0.0, 0.0]), None);
         assert_eq!(interval([0.5, 0.5, 0.5], [1.0, f32::NAN, 0.0]), None);

@@ -8,49 +8,52 @@ use rand_core::RngCore;
 use rand_pcg::Pcg32;
 use serde::{Deserialize, Serialize};
 
-/// How the samples of a pixel relate to each other.
+/// Sampler: correlation between the samples of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SamplerKind {
-    /// Not at all.
+    /// Independent random numbers.
     #[default]
     Independent,
-    /// The first decisions of a path follow a randomly shifted lattice over the pixel's samples: each sample
-    /// is as random as before, together they are spread more evenly. The spread of samples then overstates
-    /// the error of their mean. relMSE ×0.54 on the embedded plume at 32 samples, ×0.95 on clouds of many scatterings.
+    /// A randomly shifted lattice over the pixel's samples for the first decisions of a path. Each sample has
+    /// the same distribution as before, and together they are spread more evenly. The sample variance then
+    /// overstates the error of the mean. relMSE ×0.54 on the embedded plume at 32 samples, ×0.95 on clouds
+    /// with many scattering events.
     Lattice,
-    /// The same decisions follow an Owen-scrambled Sobol sequence: less even than the lattice, but with no
-    /// structure that a scene could meet badly. The same caveat. relMSE ×0.59 on the plume, ×0.9 to 1.07 on the clouds.
+    /// An Owen-scrambled Sobol sequence for the same decisions: less even than the lattice, but without a
+    /// regular structure that could alias with the scene. The same caveat applies. relMSE ×0.59 on the plume,
+    /// ×0.9 to 1.07 on the clouds.
     Sobol,
 }
 
-/// The random numbers of one path, so that a path can be replayed alone and an image does not depend on who
-/// traces which path, or when: a PCG stream of its own, and before it, if wanted, a point of a lattice.
+/// Random numbers of one path: a PCG stream of its own and, for the first decisions, optionally a point of a
+/// low-discrepancy sequence. A path can be replayed alone, and the image does not depend on the order in
+/// which threads trace paths.
 #[derive(Clone, Debug)]
 pub struct Sampler {
     rng: Pcg32,
     stratified: Option<Stratified>,
-    /// Seed, pixel and sample, mixed.
+    /// Hash of seed, pixel and sample.
     path: u64,
-    /// Seed and pixel, mixed: selects the generator's sequence.
+    /// Hash of seed and pixel; selects the PCG sequence.
     pixel: u64,
-    /// Vertices that the path has left.
+    /// Number of vertices that the path has left.
     vertex: u32,
 }
 
-/// What is drawn beside the walk at a vertex.
+/// Independent streams used at a vertex besides the walk's own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SideStream {
-    /// A connection from the vertex to a light.
+    /// Connection from the vertex to a light.
     Connection = 1,
-    /// A connection from a vertex that is drawn by angle on the way to the next one.
+    /// Connection from an equiangularly sampled vertex on the segment to the next one.
     EquiangularVertex = 2,
-    /// A walk of its own towards the light in the direction in which the path goes on.
+    /// Separate walk towards a light in the direction of the next segment.
     LightWalk = 3,
 }
 
 impl Sampler {
-    /// Independent numbers for sample number `sample` of pixel number `pixel` under `seed`.
+    /// Creates independent numbers for sample `sample` of pixel `pixel` under `seed`.
     #[must_use]
     pub fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         let key = mix(mix(seed).wrapping_add(pixel));
@@ -58,9 +61,9 @@ impl Sampler {
         Self { rng: Pcg32::new(path, key), stratified: None, path, pixel: key, vertex: 0 }
     }
 
-    /// Independent numbers of their own for what is drawn beside the walk at the present vertex, as a function of (seed,
-    /// pixel, sample, vertex): what a connection takes changes none of the walk's numbers, so that all estimators walk the
-    /// same path.
+    /// Returns an independent stream for the current vertex, as a function of (seed, pixel, sample, vertex).
+    /// The numbers used by a connection do not change those of the walk, so all estimators walk the same
+    /// path.
     #[must_use]
     #[inline]
     pub fn side_stream(&self, what: SideStream) -> Self {
@@ -68,11 +71,11 @@ impl Sampler {
         Self { rng: Pcg32::new(path, self.pixel), stratified: None, path, pixel: self.pixel, vertex: 0 }
     }
 
-    /// Numbers of a kind for sample number `sample` of pixel number `pixel` under `seed`.
+    /// Creates the sampler of a kind for sample `sample` of pixel `pixel` under `seed`.
     #[must_use]
     pub fn of_kind(kind: SamplerKind, seed: u64, pixel: u64, sample: u64) -> Self {
         let mut sampler = Self::new(seed, pixel, sample);
-        // After the last point of a sequence another one begins.
+        // A new sequence begins after the last point of the previous one.
         let seed = |period: u32| mix(mix(mix(seed) ^ (sample >> period)).wrapping_add(pixel)) as u32;
         sampler.stratified = match kind {
             SamplerKind::Independent => None,
@@ -82,7 +85,7 @@ impl Sampler {
         sampler
     }
 
-    /// The place within the pixel, and a number that chooses the path's components.
+    /// Samples the position within the pixel, and a number that selects the components of the path.
     #[inline]
     pub fn camera(&mut self) -> (Vec2, f32) {
         match &self.stratified {
@@ -91,7 +94,7 @@ impl Sampler {
         }
     }
 
-    /// Begins the decisions that lead to the next vertex.
+    /// Advances to the decisions that lead to the next vertex.
     #[inline]
     pub fn start_vertex(&mut self) {
         self.vertex += 1;
@@ -109,7 +112,7 @@ impl Sampler {
         }
     }
 
-    /// Two numbers for the point on a light, and one for the choice of the light: evenly spread ones, or the next of
+    /// Two numbers for the point on a light, and one for the choice of the light: stratified, or the next of
     /// `connection`.
     #[inline]
     pub fn light(&self, connection: &mut Self) -> (Vec2, f32) {
@@ -119,7 +122,7 @@ impl Sampler {
         }
     }
 
-    /// A number that decides whether the path survives its vertex.
+    /// A number for the Russian roulette at a vertex.
     #[inline]
     pub fn roulette(&mut self) -> f32 {
         match &self.stratified {
@@ -128,21 +131,21 @@ impl Sampler {
         }
     }
 
-    /// An optical depth with density e^(−τ), −ln(1 − ξ), on the way to the next vertex.
+    /// Samples an optical depth with density e^(−τ), as −ln(1 − ξ), on the segment to the next vertex.
     #[inline]
     pub fn optical_depth(&mut self) -> f32 {
         let stratified = self.stratified.as_mut().and_then(Stratified::flight);
         -ln(1.0 - stratified.unwrap_or_else(|| self.next_1d()))
     }
 
-    /// A number that decides what happens at a collision on the way to the next vertex.
+    /// A number for the event at a collision on the segment to the next vertex.
     #[inline]
     pub fn event(&mut self) -> f32 {
         let stratified = self.stratified.as_mut().and_then(Stratified::event);
         stratified.unwrap_or_else(|| self.next_1d())
     }
 
-    /// An optical depth with density e^(−τ), independent of all others.
+    /// Samples an optical depth with density e^(−τ), independent of all others.
     #[inline]
     pub fn next_optical_depth(&mut self) -> f32 {
         // 1 − ξ is exact: both are multiples of 2^−24.
@@ -155,14 +158,15 @@ impl Sampler {
         unit(self.rng.next_u32())
     }
 
-    /// Two of them.
+    /// Two numbers uniform in [0, 1), independent of all others.
     #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         Vec2::new(self.next_1d(), self.next_1d())
     }
 }
 
-/// Three numbers uniform in [0, 1) that follow from a point's bits: whoever comes to the same point finds the same.
+/// Three numbers uniform in [0, 1), computed as a hash of a point's bits: the same point always gives the
+/// same numbers.
 #[must_use]
 #[inline]
 pub fn numbers_of_point(point: Vec3, salt: u32) -> Vec3 {
@@ -189,8 +193,8 @@ mod tests {
         }
     }
 
-    /// Over a run of samples every decision is stratified, however far a path has come; it is uniform, and
-    /// other pixels and seeds are scrambled otherwise.
+    /// Over a run of samples every decision is stratified, at every vertex; it is uniform, and other pixels
+    /// and seeds are scrambled differently.
     #[test]
     fn decisions_of_a_run_are_evenly_spread() {
         evenly_spread(SamplerKind::Lattice, 1 << 20);
@@ -218,7 +222,7 @@ mod tests {
         };
         for vertices in 0..STRATIFIED_VERTICES {
             for which in 0..12 {
-                // Between any two of 64 evenly spaced numbers there is one, whatever the shift.
+                // Any two neighbours of 64 evenly spaced numbers are 1/64 apart, whatever the shift.
                 let mut numbers: Vec<f32> = (3 * n..4 * n).map(|s| draw(1, 7, s, vertices)[which]).collect();
                 numbers.sort_by(f32::total_cmp);
                 let even = match kind {
@@ -226,7 +230,7 @@ mod tests {
                         let gaps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
                         gaps.fold(0.0f32, |worst, gap| worst.max((gap * n as f32 - 1.0).abs()))
                     }
-                    // One in every 64th; flights come back from an exponential.
+                    // One number in each interval of 1/64; flights are recovered from an exponential.
                     _ => numbers.iter().zip(0u8..).fold(0.0f32, |worst, (x, i)| {
                         worst.max((x * n as f32 - f32::from(i) - 0.5).abs() - 0.5)
                     }),

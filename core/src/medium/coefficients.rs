@@ -1,27 +1,27 @@
-//! The coefficients of one collision.
+//! Coefficients at a collision.
 
 use super::MajorantSegment;
 use crate::spectrum::Sampled;
 
-/// μa, μs, μn and μ̄ at a point, per component and scene unit; μ̄ = μa + μs + μn.
+/// Coefficients μa, μs, μn and μ̄ at a point, per component and scene unit; μ̄ = μa + μs + μn.
 #[derive(Clone, Copy, Debug)]
 pub struct Coefficients<const N: usize> {
     /// Absorption coefficient μa.
     pub absorption: Sampled<N>,
     /// Scattering coefficient μs.
     pub scattering: Sampled<N>,
-    /// Null coefficient μn = μ̄ − μt; negative where the majorant does not bound.
+    /// Null coefficient μn = μ̄ − μt; negative where the extinction exceeds the majorant.
     pub null: Sampled<N>,
     /// Majorant μ̄.
     pub majorant: Sampled<N>,
-    /// Largest quotient μt / μ̄ over components, of the medium as it is, where it exceeds 1 and is looked for; else 1.
+    /// Maximum ratio μt / μ̄ over the components, before clamping, where it exceeds 1 and is watched; else 1.
     pub excess: f32,
 }
 
 impl<const N: usize> Coefficients<N> {
-    /// From extinction μt and albedo, under the segment's majorant and its rule for where that is
-    /// exceeded. Clamped, the medium is cut off at the majorant: the null coefficient stops at zero and
-    /// real collisions happen as often as collisions are drawn.
+    /// Computes the coefficients from extinction μt and albedo, for a segment's majorant and its rule for
+    /// violations. With clamping, the extinction is limited to the majorant: the null coefficient stops at
+    /// zero, and every collision is real.
     #[must_use]
     pub fn new(mut extinction: Sampled<N>, albedo: Sampled<N>, segment: &MajorantSegment<N>) -> Self {
         let excess = if segment.watched { excess(extinction, segment.majorant) } else { 1.0 };

@@ -1,24 +1,24 @@
-//! Emission of a medium that glows: a black body's radiance, by the temperature at a point.
+//! Thermal emission of a medium: black-body radiance by the temperature at a point.
 
 use super::{Grid, Interpolation};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
-/// Where it glows, and how hot it is there.
+/// Temperature field of an emitting medium.
 #[derive(Clone, Debug)]
 pub struct Emission {
-    /// Temperature by place, in units of `kelvin`; `None` for the same everywhere in the box.
+    /// Temperature grid, in units of `kelvin`; `None` for a constant temperature in the box.
     pub temperature: Option<Arc<Grid<1>>>,
-    /// Takes points of the medium's unit cube to those of the temperature's.
+    /// Transform from the medium's unit cube to that of the temperature grid.
     pub temperature_from_medium: Affine3A,
-    /// Kelvins of a temperature of 1.
+    /// Kelvins per unit of the grid.
     pub kelvin: f32,
-    /// Multiplies the radiance.
+    /// Multiplier of the radiance.
     pub scale: f32,
 }
 
 impl Emission {
-    /// Kelvins at a point of the medium's unit cube; a grid that ends short of it is cold there.
+    /// Temperature in kelvins at a point of the medium's unit cube; zero outside the temperature grid.
     #[must_use]
     #[inline]
     pub fn kelvin_at(&self, point: Vec3) -> f32 {

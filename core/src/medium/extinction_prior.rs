@@ -1,27 +1,27 @@
-//! What is known of extinction before it is looked up.
+//! Prior knowledge of the extinction, without a look-up.
 
 use crate::spectrum::Sampled;
 
-/// Extinction to be expected in the majorant cell of a point, per component and scene unit.
+/// Expected extinction in the majorant cell of a point, per component and scene unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExtinctionPrior<const N: usize> {
-    /// A lower bound of the extinction; zero if none is known.
+    /// Lower bound of the extinction; zero if unknown.
     pub minorant: Sampled<N>,
-    /// Its mean, roughly; zero if none is known.
+    /// Approximate mean of the extinction; zero if unknown.
     pub mean: Sampled<N>,
 }
 
 impl<const N: usize> ExtinctionPrior<N> {
-    /// Nothing is known.
+    /// Unknown extinction.
     pub const UNKNOWN: Self = Self { minorant: Sampled::ZERO, mean: Sampled::ZERO };
 
-    /// Of constant extinction.
+    /// Prior of a constant extinction.
     #[must_use]
     pub fn exact(extinction: Sampled<N>) -> Self {
         Self { minorant: extinction, mean: extinction }
     }
 
-    /// Of a mean alone.
+    /// Prior of which only the mean is known.
     #[must_use]
     pub fn of_mean(mean: Sampled<N>) -> Self {
         Self { minorant: Sampled::ZERO, mean }

@@ -1,4 +1,4 @@
-//! Constant coefficients: σt(λ) and albedo(λ) everywhere in the box.
+//! Homogeneous medium: σt(λ) and albedo(λ) are constant in the box.
 
 use super::{Coefficients, ExtinctionPrior, LocalMedium, MajorantPolicy, MajorantSegment, Medium};
 use crate::math::BoxRay;
@@ -16,7 +16,7 @@ pub struct Homogeneous {
     pub majorant: MajorantPolicy,
 }
 
-/// [`Homogeneous`] at a path's components.
+/// A [`Homogeneous`] medium at the components of a path.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalHomogeneous<const N: usize> {
     extinction: Sampled<N>,

@@ -1,55 +1,55 @@
-//! All majorant grids of a field: made when they are first asked for, and kept.
+//! Cache of the majorant grids of a field, computed on first use.
 
 use super::{Grid, Interpolation, MajorantGrid};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// The most cells per axis.
+/// Maximum number of cells per axis.
 pub const MAX_MAJORANT_CELLS: u32 = 128;
 
-/// What crossing a majorant cell costs, in density look-ups.
+/// Cost of crossing a majorant cell, in density look-ups.
 const CELL_COST: f32 = 0.12;
 
-/// The majorant grids of one field, by resolution. Edits of scale, spectra or albedo only choose among
-/// them; voxels are read once per resolution.
+/// Majorant grids of one field, by resolution. Edits of scale, spectra or albedo only select among them;
+/// voxels are read once per resolution.
 #[derive(Debug)]
 pub struct Majorants<const C: usize> {
     grid: Arc<Grid<C>>,
-    trilinear: WeightRecord<C>,
-    stochastic: WeightRecord<C>,
+    trilinear: GridCache<C>,
+    stochastic: GridCache<C>,
 }
 
-/// Grids that bound one kind of look-up.
+/// Cached grids for one kind of look-up.
 #[derive(Debug)]
-struct WeightRecord<const C: usize> {
+struct GridCache<const C: usize> {
     /// Powers of two, the coarsest first.
     levels: OnceLock<Vec<Arc<MajorantGrid<C>>>>,
     others: Mutex<BTreeMap<u32, Arc<MajorantGrid<C>>>>,
 }
 
-impl<const C: usize> Default for WeightRecord<C> {
+impl<const C: usize> Default for GridCache<C> {
     fn default() -> Self {
         Self { levels: OnceLock::new(), others: Mutex::default() }
     }
 }
 
 impl<const C: usize> Majorants<C> {
-    /// Of a field; nothing is computed yet.
+    /// Creates an empty cache for a field.
     #[must_use]
     pub fn new(grid: Arc<Grid<C>>) -> Self {
-        Self { grid, trilinear: WeightRecord::default(), stochastic: WeightRecord::default() }
+        Self { grid, trilinear: GridCache::default(), stochastic: GridCache::default() }
     }
 
-    fn kept(&self, interpolation: Interpolation) -> &WeightRecord<C> {
+    fn cache(&self, interpolation: Interpolation) -> &GridCache<C> {
         match interpolation {
             Interpolation::Trilinear => &self.trilinear,
             Interpolation::Stochastic => &self.stochastic,
         }
     }
 
-    /// From one cell to about one per two samples, at most [`MAX_MAJORANT_CELLS`] per axis.
+    /// Grids from one cell to about one cell per two samples, at most [`MAX_MAJORANT_CELLS`] per axis.
     fn levels(&self, interpolation: Interpolation) -> &[Arc<MajorantGrid<C>>] {
-        self.kept(interpolation).levels.get_or_init(|| {
+        self.cache(interpolation).levels.get_or_init(|| {
             let longest = self.grid.size().into_iter().fold(1, usize::max) as u32;
             let finest = (longest.next_power_of_two() / 2).clamp(1, MAX_MAJORANT_CELLS);
             let mut level = MajorantGrid::new(&self.grid, finest as usize, interpolation);
@@ -63,7 +63,7 @@ impl<const C: usize> Majorants<C> {
         })
     }
 
-    /// The grid of `cells` per axis, for look-ups of one kind.
+    /// Returns the grid with `cells` per axis, for one kind of look-up.
     #[must_use]
     pub fn at(&self, cells: u32, interpolation: Interpolation) -> Arc<MajorantGrid<C>> {
         let cells = cells.clamp(1, MAX_MAJORANT_CELLS);
@@ -71,14 +71,15 @@ impl<const C: usize> Majorants<C> {
         if let Some(level) = self.levels(interpolation).iter().find(same) {
             return Arc::clone(level);
         }
-        let kept = self.kept(interpolation);
-        let mut others = kept.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let cache = self.cache(interpolation);
+        let mut others = cache.others.lock().unwrap_or_else(PoisonError::into_inner);
         let make = || Arc::new(MajorantGrid::new(&self.grid, cells as usize, interpolation));
         Arc::clone(others.entry(cells).or_insert_with(make))
     }
 
-    /// The resolution that is cheapest to fly through, where a field value of 1 means `extinction` mean
-    /// free paths across the box: finer cells cost more steps, coarser ones more null collisions.
+    /// Returns the grid with the lowest cost of free flights, where a field value of 1 corresponds to an
+    /// optical depth of `extinction` across the box: finer cells cost more steps, coarser cells more null
+    /// collisions.
     #[must_use]
     pub fn cheapest(&self, extinction: f32, interpolation: Interpolation) -> Arc<MajorantGrid<C>> {
         let cost = |level: &MajorantGrid<C>| {

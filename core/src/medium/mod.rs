@@ -1,11 +1,11 @@
 //! Participating media.
 //!
-//! A medium answers two questions and no others (the report's appendix B): its coefficients at a
-//! point, and majorant segments along a ray. Sampling, events and transmittance are transport's.
+//! A medium provides two things only (the report's appendix B): its coefficients at a point, and majorant
+//! segments along a ray. Sampling, events and transmittance are in [`crate::transport`].
 //!
-//! Every medium fills the unit cube of its own *medium space*; an affine placement puts it into the
-//! world. Rays are taken into medium space with their parameter `t` unchanged, so that distances,
-//! and with them coefficients per scene unit, keep their meaning under any placement.
+//! Every medium fills the unit cube of its own *medium space*, which an affine transform places in the world.
+//! Rays are transformed to medium space with unchanged parameter `t`, so that distances, and therefore
+//! coefficients per scene unit, are preserved under any placement.
 
 mod albedo;
 mod cell_walk;
@@ -42,7 +42,7 @@ use crate::spectrum::{Components, Sampled};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// A medium before a path has chosen its components.
+/// Medium, independent of the components of a path.
 pub trait Medium: Send + Sync {
     /// The medium at the components of one path.
     type Local<'a, const N: usize>: LocalMedium<N>
@@ -53,39 +53,40 @@ pub trait Medium: Send + Sync {
     fn local<const N: usize, C: Components<N>>(&self, components: &C) -> Self::Local<'_, N>;
 }
 
-/// A medium at the components of one path: the contract that transport is written against.
+/// Medium at the components of one path: the interface that transport uses.
 pub trait LocalMedium<const N: usize> {
     /// Majorant segments along a ray.
     type Segments<'a>: Iterator<Item = MajorantSegment<N>>
     where
         Self: 'a;
 
-    /// Extinction and albedo, if they are the same everywhere: flights and transmittance then have closed forms.
+    /// Extinction and albedo if they are constant in space, so that flights and transmittance have closed
+    /// forms.
     fn uniform(&self) -> Option<(Sampled<N>, Sampled<N>)> {
         None
     }
 
-    /// Absorption, scattering and null coefficient at a point of medium space, with respect to the
-    /// majorant of the segment that the point lies in. One density look-up.
+    /// Absorption, scattering and null coefficient at a point of medium space, relative to the majorant of
+    /// the segment that contains the point. One density look-up.
     fn coefficients(&self, point: Vec3, majorant: &MajorantSegment<N>) -> Coefficients<N>;
 
-    /// What is known of the extinction around a point of medium space, without a look-up: nothing, unless a medium
-    /// says otherwise.
+    /// Prior knowledge of the extinction around a point of medium space, without a look-up. Unknown by
+    /// default.
     fn extinction_prior(&self, _point: Vec3) -> ExtinctionPrior<N> {
         ExtinctionPrior::UNKNOWN
     }
 
-    /// A lower bound μc of the extinction around a point of medium space, with the albedo there, if they are known
-    /// without a look-up: what decomposition tracking calls the control.
+    /// Control extinction μc of decomposition tracking, a lower bound of the extinction around a point of
+    /// medium space, and the albedo there, if both are known without a look-up.
     fn control(&self, _point: Vec3) -> Option<(Sampled<N>, Sampled<N>)> {
         None
     }
 
-    /// Majorants along a ray through the unit cube, as segments in order. What they leave out is empty.
+    /// Majorant segments along a ray through the unit cube, in order. Gaps between them are empty.
     fn segments<'a>(&'a self, ray: &BoxRay) -> Self::Segments<'a>;
 }
 
-/// Any medium, to be matched once before a monomorphic loop.
+/// Any kind of medium, matched once before a monomorphised loop.
 #[derive(Clone, Debug)]
 pub enum AnyMedium {
     /// Constant coefficients.
@@ -96,12 +97,12 @@ pub enum AnyMedium {
     RgbGrids(RgbGrids),
 }
 
-/// The local bounds of any medium that has some.
+/// Grid of local bounds of a medium.
 #[derive(Clone, Copy, Debug)]
 pub enum MajorantCells<'a> {
-    /// Of a density.
+    /// Bounds of a density.
     Density(&'a MajorantGrid<1>),
-    /// Of an RGB grid.
+    /// Bounds of an RGB grid.
     Rgb(&'a MajorantGrid<3>),
 }
 
@@ -115,8 +116,8 @@ impl MajorantCells<'_> {
         }
     }
 
-    /// Mean of the field in a cell over its bound: the share of collisions there that are real, at factor 1;
-    /// `None` in an empty cell.
+    /// Mean of the field in a cell over its bound, which is the fraction of real collisions there at factor
+    /// 1; `None` in an empty cell.
     #[must_use]
     pub fn tightness(&self, cell: [usize; 3]) -> Option<f32> {
         let (mean, bound) = match self {
@@ -128,7 +129,7 @@ impl MajorantCells<'_> {
 }
 
 impl AnyMedium {
-    /// The cells of its local majorants; none in a homogeneous medium, whose majorant is its extinction.
+    /// Cells of the local majorants; `None` in a homogeneous medium, whose majorant is its extinction.
     #[must_use]
     pub fn majorant_cells(&self) -> Option<MajorantCells<'_>> {
         match self {
@@ -138,7 +139,7 @@ impl AnyMedium {
         }
     }
 
-    /// Whether the extinction may exceed the majorant.
+    /// Returns whether the extinction may exceed the majorant.
     #[must_use]
     pub fn is_watched(&self) -> bool {
         match self {
@@ -148,7 +149,7 @@ impl AnyMedium {
         }
     }
 
-    /// Whether its bounds are to be raised where they are found to be exceeded.
+    /// Returns whether bounds are raised where they are found to be exceeded.
     #[must_use]
     pub fn is_progressive(&self) -> bool {
         match self {
@@ -158,7 +159,7 @@ impl AnyMedium {
         }
     }
 
-    /// The same under larger bounds, wherever the extinction was found to exceed them.
+    /// Returns the medium with its bounds raised wherever the extinction was found to exceed them.
     #[must_use]
     pub fn raised(&self, by: &Violations) -> Self {
         match self {
@@ -173,7 +174,7 @@ impl AnyMedium {
         }
     }
 
-    /// Whether extinction and albedo are the same at every wavelength, everywhere.
+    /// Returns whether extinction and albedo are independent of wavelength everywhere.
     #[must_use]
     pub fn is_achromatic(&self) -> bool {
         match self {

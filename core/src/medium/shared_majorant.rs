@@ -1,4 +1,4 @@
-//! A medium whose components share one majorant, that of the densest.
+//! Shared majorants: all components use the largest component's majorant.
 
 use super::{Coefficients, LocalMedium, MajorantSegment};
 use crate::math::BoxRay;
@@ -6,7 +6,7 @@ use crate::spectrum::Sampled;
 use glam::Vec3;
 use std::iter::Map;
 
-/// Another medium, flown through by the largest component's majorant.
+/// Wrapper of a medium that uses the largest component's majorant for all components.
 #[derive(Clone, Copy, Debug)]
 pub struct SharedMajorant<L>(pub L);
 

@@ -1,20 +1,21 @@
-//! Where the extinction was found to exceed the majorant, and by how much.
+//! Record of the violations of a majorant by free flights.
 
 use glam::Vec3;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// Largest quotient μt / μ̄ that flights have met in every cell of a majorant grid.
+/// Maximum ratio μt / μ̄ found by free flights in every cell of a majorant grid.
 ///
-/// Only the largest is kept, so that what is known after a set of paths does not depend on who traced which, or when.
+/// Only the maximum is stored, so the record after a set of paths does not depend on the order in which
+/// threads trace them.
 #[derive(Debug)]
 pub struct Violations {
     cells: usize,
-    /// `n³` quotients, x fastest, by their bits: those of positive numbers have the order of the numbers.
+    /// `n³` ratios, x fastest, as bits: for positive numbers the bits have the same order as the numbers.
     largest: Vec<AtomicU32>,
 }
 
 impl Violations {
-    /// None yet, in `cells` per axis.
+    /// Creates an empty record with `cells` per axis.
     #[must_use]
     pub fn none(cells: usize) -> Self {
         let cells = cells.max(1);
@@ -28,7 +29,7 @@ impl Violations {
         self.cells
     }
 
-    /// Notes a quotient at a point of the unit cube.
+    /// Records a ratio at a point of the unit cube.
     #[cold]
     pub fn note(&self, unit: Vec3, quotient: f32) {
         let n = self.cells;
@@ -38,7 +39,7 @@ impl Violations {
         }
     }
 
-    /// The largest quotient that was met in a cell; 1 if the majorant was never exceeded there.
+    /// Maximum ratio found in a cell; 1 if the majorant was never exceeded there.
     #[must_use]
     pub fn largest(&self, [x, y, z]: [usize; 3]) -> f32 {
         let n = self.cells;
@@ -46,7 +47,7 @@ impl Violations {
         bits.map_or(1.0, f32::from_bits)
     }
 
-    /// In how many cells the majorant was exceeded.
+    /// Number of cells in which the majorant was exceeded.
     #[must_use]
     pub fn exceeded_cells(&self) -> usize {
         self.largest.iter().filter(|bits| f32::from_bits(bits.load(Ordering::Relaxed)) > 1.0).count()

@@ -18,63 +18,63 @@ use crate::surface::{OrientedBox, Plane, Rectangle, Role, Shape, Sphere, Surface
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
-/// A grid with the box that it fills in its own file's space.
+/// A grid and its bounding box in the space of its file.
 #[derive(Clone, Debug)]
 pub struct PlacedGrid<const C: usize> {
-    /// Its name in the file; empty where it has none.
+    /// Name in the file; empty if it has none.
     pub name: String,
     /// The samples.
     pub grid: Arc<Grid<C>>,
-    /// Their local bounds.
+    /// Local bounds of the samples.
     pub majorants: Arc<Majorants<C>>,
-    /// Takes the unit cube to the box that the file says.
+    /// Maps the unit cube to the bounding box given by the file.
     pub object_from_unit: Affine3A,
-    /// Whether the file says where its box stands, as OpenVDB and `.vol` do and `.npy` does not.
+    /// Whether the file defines the position of the box, as OpenVDB and `.vol` do and `.npy` does not.
     pub says_where: bool,
-    /// What reading repaired or chose, e.g. NaN voxels that were set to 0.
+    /// Repairs and choices made while reading, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
 }
 
-/// Why a file could not be used; its message names the file, the place and the cure.
+/// Error on use of a file; the message names the file, the location and the remedy.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct ResourceError(pub String);
 
-/// Where a scene's files come from. Implementations keep what they have read.
+/// Source of a scene's files. Implementations cache what they have read.
 pub trait Resources {
-    /// A scalar grid, kept at a precision; without a name, the grid that is named like a density.
+    /// Returns a scalar grid, stored at a precision; without a name, the grid that is named like a density.
     ///
     /// # Errors
-    /// When the file is missing, damaged, of another kind, or too large, or holds no grid of that name or kind.
+    /// When the file is missing, damaged, of another kind, or too large, or has no grid of that name or kind.
     fn scalar_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<1>, ResourceError>;
 
-    /// A scalar grid at full precision; without a name, the grid that is named like a temperature.
+    /// Returns a scalar grid at full precision; without a name, the grid that is named like a temperature.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
     fn temperature_grid(&mut self, grid: &GridRef) -> Result<PlacedGrid<1>, ResourceError>;
 
-    /// An RGB grid, kept at a precision.
+    /// Returns an RGB grid, stored at a precision.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
     fn rgb_grid(&mut self, grid: &GridRef, precision: Precision) -> Result<PlacedGrid<3>, ResourceError>;
 
-    /// A picture of the surroundings, and what reading it repaired.
+    /// Returns an environment image and the repairs made while reading it.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
     fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError>;
 
-    /// The points of a tabulated phase function.
+    /// Returns the points of a tabulated phase function.
     ///
     /// # Errors
     /// As for [`Self::scalar_grid`].
     fn phase_table(&mut self, file: &str) -> Result<Vec<[f32; 2]>, ResourceError>;
 }
 
-/// Freezes a document. Spectra, lights and surfaces are rebuilt every time, which takes microseconds;
-/// grids and pictures come from `resources`, which keeps them.
+/// Freezes a document. Spectra, lights and surfaces are rebuilt every time, which takes microseconds; grids
+/// and images come from `resources`, which caches them.
 ///
 /// # Errors
 /// The first problem that validation finds, or a file that could not be used.
@@ -88,7 +88,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         build_medium(&doc.medium, phase.mean_cosine(), resources, &mut notices)?;
     info.phase_points = phase_points;
     let world_from_unit = placement::world_from_unit(&doc.medium.placement, object_from_unit);
-    // Relative to its edges: a tiny box is as good as a large one, a flat one is not.
+    // Relative to the edge lengths: a tiny box is valid, a flat one is not.
     let m = world_from_unit.matrix3;
     let edges = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
     if !world_from_unit.inverse().is_finite() || m.determinant().abs() <= 1e-6 * edges {
@@ -144,8 +144,8 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
     })
 }
 
-/// The largest optical depth of a box, by the majorant. Beyond it free flights are shorter than the
-/// rounding of positions, and a walk would no longer advance.
+/// Maximum optical depth of a box, by its majorant. Beyond it free flights are shorter than the rounding
+/// error of positions, and a walk would no longer advance.
 const MAX_OPTICAL_DEPTH: f32 = 1e6;
 
 fn check_optical_depth(doc: &MediumDoc, depth: f32, notices: &mut Vec<String>) -> Result<(), SceneError> {
@@ -153,7 +153,7 @@ fn check_optical_depth(doc: &MediumDoc, depth: f32, notices: &mut Vec<String>) -
         return Err(SceneError::Invalid(Problem {
             path: "medium.scale".into(),
             message: format!(
-                "the box is {depth:.1e} mean free paths deep by its majorant; at most {MAX_OPTICAL_DEPTH:.0e} can be \
+                "the majorant's optical depth across the box is {depth:.1e}; at most {MAX_OPTICAL_DEPTH:.0e} can be \
                  resolved: lower the scale, the extinction or the majorant's factor"
             ),
         }));
@@ -161,14 +161,14 @@ fn check_optical_depth(doc: &MediumDoc, depth: f32, notices: &mut Vec<String>) -
     let excess = depth * (1.0 / doc.majorant.factor - 1.0);
     if doc.majorant.when_exceeded == WhenExceeded::Weighted && excess > 4.0 {
         notices.push(format!(
-            "The majorant is exceeded by up to {excess:.0} mean free paths: still unbiased, but the variance grows \
-             exponentially with that number. Raise the majorant's factor towards 1."
+            "The extinction exceeds the majorant by an optical depth of up to {excess:.0}: still unbiased, but the \
+             variance grows exponentially with that number. Raise the majorant's factor towards 1."
         ));
     }
     Ok(())
 }
 
-/// The phase function, and its points if they come from a file.
+/// Phase function, with its points if they come from a file.
 fn build_phase(doc: &PhaseDoc, resources: &mut dyn Resources) -> Result<(Phase, Vec<[f32; 2]>), SceneError> {
     let PhaseDoc::Tabulated { angle, file, .. } = doc else { return Ok((Phase::new(doc), Vec::new())) };
     if file.is_empty() {
@@ -201,7 +201,7 @@ fn build_medium(
     let sigma = extinction.scaled(doc.scale);
     let mut info = SceneInfo { max_density: 1.0, mean_density: 1.0, ..SceneInfo::default() };
 
-    // The unit cube's place in the file's own space, if the file says one.
+    // Placement of the unit cube in the space of the file, if the file defines one.
     let mut placed = centred;
     let mut density_box = None;
     let extinction = match &doc.density {
@@ -240,7 +240,8 @@ fn build_medium(
             }
             info.memory_bytes += read.grid.bytes();
             notices.extend(read.notices);
-            // Files that say where they stand are laid over each other there; others fill the same box.
+            // Two files that both define a position are registered by it; otherwise both grids fill the same
+            // box.
             let albedo_from_density = match density_box {
                 Some(density) if read.says_where => read.object_from_unit.inverse() * density,
                 _ => Affine3A::IDENTITY,
@@ -290,7 +291,8 @@ fn build_medium(
     Ok((medium, emission, placed, info))
 }
 
-/// The temperature is laid over the density where both files say where they stand, and fills the same box otherwise.
+/// Freezes the emission. The temperature grid is registered with the density where both files define a
+/// position, and fills the same box otherwise.
 fn build_emission(
     doc: &EmissionDoc,
     density_box: Option<Affine3A>,
@@ -317,8 +319,8 @@ fn build_emission(
     Ok(emission)
 }
 
-/// The majorant cells that a document asks for, or the cheapest ones for a grid whose values stand for
-/// `extinction` each.
+/// Majorant cells at the resolution of the document, or else the cheapest ones for a grid whose unit value
+/// has this extinction.
 fn bounds_of<const C: usize>(
     placed: &PlacedGrid<C>,
     doc: &MediumDoc,

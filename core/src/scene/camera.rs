@@ -1,10 +1,10 @@
-//! A pinhole camera.
+//! Pinhole camera.
 
 use super::CameraDoc;
 use crate::math::Ray;
 use glam::{Vec2, Vec3};
 
-/// A camera with a film of a given size in front of it.
+/// Pinhole camera with a film of a given size.
 ///
 /// The ray through continuous pixel coordinates (x right, y down) has direction
 /// `normalize((2x/W − 1)·tan(fov/2)·right + (1 − 2y/H)·tan(fov/2)·(H/W)·up + forward)`.
@@ -12,7 +12,7 @@ use glam::{Vec2, Vec3};
 pub struct Camera {
     origin: Vec3,
     forward: Vec3,
-    /// Half a film's width along `right`, at distance 1.
+    /// Half the film's width along `right`, at distance 1.
     right: Vec3,
     up: Vec3,
     pixels_to_film: Vec2,
@@ -41,13 +41,13 @@ impl Camera {
         }
     }
 
-    /// Where it stands.
+    /// Position of the pinhole.
     #[must_use]
     pub fn origin(&self) -> Vec3 {
         self.origin
     }
 
-    /// Where on the film a point of the world is seen, in pixels; `None` behind the camera.
+    /// Film position of a world point, in pixels; `None` behind the camera.
     #[must_use]
     pub fn pixel_of(&self, point: Vec3) -> Option<Vec2> {
         let to_point = point - self.origin;
@@ -60,7 +60,7 @@ impl Camera {
         Some((Vec2::new(x, y) + Vec2::ONE) / self.pixels_to_film)
     }
 
-    /// The ray through a point of the film, in pixels.
+    /// Ray through a point of the film, in pixels.
     #[must_use]
     pub fn ray(&self, pixel: Vec2) -> Ray {
         let s = pixel * self.pixels_to_film - Vec2::ONE;

@@ -1,4 +1,4 @@
-//! A scene that does not change any more: what paths are traced in.
+//! Frozen scene: the immutable form in which paths are traced.
 
 use super::Camera;
 use crate::light::{Light, LightChoice, LightLobes};
@@ -9,93 +9,93 @@ use crate::surface::{Role, Surface, SurfaceHit};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
-/// A frozen scene. Immutable and shared by every view that renders it.
+/// Frozen scene, immutable and shared by all views that render it.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The camera.
+    /// Camera.
     pub camera: Camera,
-    /// Columns of the film.
+    /// Width of the film in pixels.
     pub width: u32,
-    /// Rows of the film.
+    /// Height of the film in pixels.
     pub height: u32,
-    /// The medium, in the unit cube of its own space.
+    /// Medium, in the unit cube of its own space.
     pub medium: AnyMedium,
-    /// Where flights have found its extinction to exceed the majorant.
+    /// Violations of the majorant found by free flights.
     pub violations: Arc<Violations>,
-    /// How it glows, if it does.
+    /// Thermal emission of the medium.
     pub emission: Option<Emission>,
-    /// Takes points of the world into the medium's unit cube.
+    /// Transform from world space into the medium's unit cube.
     pub medium_from_world: Affine3A,
-    /// The medium's phase function.
+    /// Phase function of the medium.
     pub phase: Phase,
-    /// Lights with a shape, and diffuse surfaces.
+    /// Diffuse surfaces, and the surfaces of lights that have a shape.
     pub surfaces: Vec<Surface>,
-    /// Every light.
+    /// All lights.
     pub lights: Vec<Light>,
-    /// What connections choose among the lights by.
+    /// Selection probabilities of lights for connections.
     pub light_choice: LightChoice,
-    /// Lobes towards those lights that stand in some direction.
+    /// Direction lobes towards the lights that have a dominant direction.
     pub lobes: Option<LightLobes>,
-    /// Whether neither the medium nor a surface tells one wavelength from another.
+    /// Whether medium and surfaces are independent of wavelength.
     pub achromatic: bool,
-    /// Numbers that people want to see.
+    /// Statistics for display.
     pub info: SceneInfo,
-    /// What building repaired or wants to be known.
+    /// Repairs made while building, and warnings.
     pub notices: Vec<String>,
 }
 
-/// Numbers about a scene that people want to see.
+/// Statistics of a scene for display.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneInfo {
-    /// Name of the density's grid in its file; empty where it has none.
+    /// Name of the density grid in its file; empty if it has none.
     pub density_grid: String,
-    /// Name of the temperature's grid in its file; empty where it has none.
+    /// Name of the temperature grid in its file; empty if it has none.
     pub temperature_grid: String,
     /// Samples per axis of the density grid.
     pub grid_size: Option<[usize; 3]>,
-    /// Points of the phase function, if they were read from a file.
+    /// Points of the phase function, if read from a file.
     pub phase_points: Vec<[f32; 2]>,
-    /// Largest density.
+    /// Maximum density.
     pub max_density: f32,
     /// Mean density over the box.
     pub mean_density: f32,
-    /// Largest majorant over wavelengths, per scene unit.
+    /// Maximum of the majorant over the wavelengths, per scene unit.
     pub majorant: f32,
     /// Cells per axis of the grid of local majorants.
     pub majorant_cells: Option<usize>,
-    /// Mean extinction over mean majorant: the share of collisions along a straight line through the box
-    /// that are real.
+    /// Mean extinction over mean majorant: the fraction of real collisions along a straight line through the
+    /// box.
     pub tightness: f32,
-    /// Lowest corner of the medium's bounds in the world.
+    /// Minimum corner of the medium's bounds in world space.
     pub world_min: [f32; 3],
-    /// Highest corner.
+    /// Maximum corner of the medium's bounds in world space.
     pub world_max: [f32; 3],
-    /// Voxels of the density that are not zero.
+    /// Number of non-zero density voxels.
     pub occupied_voxels: usize,
-    /// The largest error in any density that keeping it at less than full precision has made.
+    /// Maximum error of the density due to storage at reduced precision.
     pub storage_error: f32,
-    /// Bytes that grids take.
+    /// Memory of all grids in bytes.
     pub memory_bytes: usize,
 }
 
-/// The surface that a ray meets first, if any.
+/// Nearest surface along a ray, if any.
 #[derive(Clone, Copy, Debug)]
 pub struct NearestSurface<'a>(Option<(SurfaceHit, &'a Surface)>);
 
 impl<'a> NearestSurface<'a> {
-    /// Distance along the ray; infinite if none is met.
+    /// Distance along the ray; infinite without a hit.
     #[must_use]
     pub fn t(&self) -> f32 {
         self.0.map_or(f32::INFINITY, |(hit, _)| hit.t)
     }
 
-    /// Unit normal; zero if none is met.
+    /// Unit normal; zero without a hit.
     #[must_use]
     pub fn normal(&self) -> Vec3 {
         self.0.map_or(Vec3::ZERO, |(hit, _)| hit.normal)
     }
 
-    /// What the surface does with light; `None` if none is met.
+    /// Role of the surface in light transport; `None` without a hit.
     #[must_use]
     pub fn role(&self) -> Option<&'a Role> {
         self.0.map(|(_, surface)| &surface.role)
@@ -103,14 +103,14 @@ impl<'a> NearestSurface<'a> {
 }
 
 impl Scene {
-    /// The same scene, in which no violation of the majorant has been found yet.
+    /// Returns the same scene with an empty record of majorant violations.
     #[must_use]
     pub fn unwatched(&self) -> Self {
         Self { violations: Arc::new(Violations::none(self.violations.cells())), ..self.clone() }
     }
 
-    /// The same scene under bounds that are raised by all violations that were found, and none found yet; `None` if
-    /// there are none, or bounds are not to be raised.
+    /// Returns the same scene with majorants raised by all recorded violations and an empty record; `None` if
+    /// there are no violations or the majorant is not progressive.
     #[must_use]
     pub fn raised(&self) -> Option<Self> {
         (self.medium.is_progressive() && self.violations.exceeded_cells() > 0).then(|| {
@@ -120,14 +120,14 @@ impl Scene {
         })
     }
 
-    /// Whether any surface stands in the way at `0 < t < t_max`.
+    /// Returns whether any surface intersects the ray at `0 < t < t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
         self.surfaces.iter().any(|surface| surface.shape.intersect(ray, t_max).is_some())
     }
 
-    /// The surface that a ray meets first at `0 < t < t_max`. Rays from the camera pass through lights
-    /// that are hidden from it.
+    /// Returns the nearest surface along a ray at `0 < t < t_max`. Camera rays pass through lights that are
+    /// hidden from the camera.
     #[must_use]
     pub fn nearest_surface(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
         let mut nearest: Option<(SurfaceHit, &Surface)> = None;

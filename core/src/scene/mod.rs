@@ -15,18 +15,18 @@ pub use frozen::{NearestSurface, Scene, SceneInfo};
 pub(crate) use placement::{bounds, rotation};
 pub use validate::{Problem, validate};
 
-/// Why a document could not be frozen into a scene.
+/// Error on freezing a document into a scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
-    /// A value that makes no sense; the first of those found.
+    /// An invalid value; the first one found.
     #[error("{0}")]
     Invalid(Problem),
-    /// A file that the scene names could not be used.
+    /// A file named by the scene could not be used.
     #[error("{path}: {source}")]
     Resource {
-        /// The key in the document.
+        /// Key in the document.
         path: String,
-        /// What happened.
+        /// Underlying error.
         source: ResourceError,
     },
 }

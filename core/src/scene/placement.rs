@@ -1,15 +1,15 @@
-//! Where the medium's box stands: world-from-object matrices from their edited form.
+//! World-from-object transforms from an editable placement.
 
 use super::PlacementDoc;
 use glam::{Affine3A, EulerRot, Mat3, Quat, Vec3};
 
-/// Turns about x, then y, then z.
+/// Rotation about x, then y, then z, by angles in degrees.
 pub(crate) fn rotation(rotate_deg: [f32; 3]) -> Quat {
     let [x, y, z] = rotate_deg.map(f32::to_radians);
     Quat::from_euler(EulerRot::ZYX, z, y, x)
 }
 
-/// Corners of the unit cube's image.
+/// Axis-aligned bounds of the transformed unit cube.
 pub(crate) fn bounds(world_from_unit: &Affine3A) -> (Vec3, Vec3) {
     let mut lo = Vec3::INFINITY;
     let mut hi = Vec3::NEG_INFINITY;
@@ -21,7 +21,7 @@ pub(crate) fn bounds(world_from_unit: &Affine3A) -> (Vec3, Vec3) {
     (lo, hi)
 }
 
-/// The whole placement: fit, then scale, rotate, translate or the matrix.
+/// World-from-unit-cube transform: fit, then scale, rotation and translation, or the matrix.
 pub(super) fn world_from_unit(doc: &PlacementDoc, object_from_unit: Affine3A) -> Affine3A {
     let mut placed = object_from_unit;
     if let Some(longest) = doc.fit {
@@ -64,7 +64,7 @@ mod tests {
             Vec3::splat(4.0),
         );
         let m = world_from_unit(&doc, object);
-        // Fitted corner (1, .5, .5) → scaled (1, 1, .5) → turned (-1, 1, .5) → moved (9, 1, .5).
+        // Fitted corner (1, .5, .5) → scaled (1, 1, .5) → rotated (-1, 1, .5) → translated (9, 1, .5).
         assert!((m.transform_point3(Vec3::ONE) - Vec3::new(9.0, 1.0, 0.5)).length() < 1e-5);
     }
 

@@ -1,21 +1,22 @@
 //! Radiance of a black body, by Planck's law.
 //!
-//! In units of what 3000 K emits at 560 nm: a scene's `scale` sets how bright that is, hotter is brighter as
-//! it is in nature.
+//! Relative to the radiance at 3000 K and 560 nm, which a scene's `scale` sets. The dependence on temperature
+//! is physical.
 
 use super::observer;
 use glam::Vec3;
 use std::sync::LazyLock;
 
-/// Hotter bodies are taken as this hot, in kelvins.
+/// Temperatures are clamped to this maximum, in kelvins.
 pub const HOTTEST_K: f32 = 15_000.0;
-/// Below it a body is dark to the eye, whatever its size: 10⁻⁹ of what 3000 K emits.
+/// Temperatures below this have zero radiance: there it is below 10⁻⁹ of that at 3000 K.
 const DARK_K: f32 = 700.0;
 
 /// h c / k, in nm K.
 const SECOND_RADIATION_CONSTANT: f64 = 1.438_776_877e7;
 
-/// Spectral radiance at a wavelength, relative to 3000 K at 560 nm: (560/λ)⁵ (e^(c₂/(560·3000)) − 1)/(e^(c₂/(λT)) − 1).
+/// Spectral radiance at a wavelength, relative to 3000 K at 560 nm:
+/// (560/λ)⁵ (e^(c₂/(560·3000)) − 1)/(e^(c₂/(λT)) − 1).
 #[must_use]
 pub fn planck(lambda_nm: f32, kelvin: f32) -> f32 {
     if kelvin < DARK_K {
@@ -26,7 +27,7 @@ pub fn planck(lambda_nm: f32, kelvin: f32) -> f32 {
     ((560.0 / lambda).powi(5) * occupation(lambda, t) / occupation(560.0, 3000.0)) as f32
 }
 
-/// Colours of a black body, every kelvin.
+/// Table of the colours of a black body, one per kelvin.
 struct Colours(Vec<Vec3>);
 
 impl Colours {
@@ -47,13 +48,14 @@ static ON_FILM: LazyLock<Colours> =
 static IN_RGB: LazyLock<Colours> =
     LazyLock::new(|| Colours::new(|kelvin| observer::band_means(|l| planck(l, kelvin))));
 
-/// ∫ response(λ) · planck(λ, T) dλ in linear sRGB; deep red is out of its gamut and has a negative blue.
+/// ∫ response(λ) · planck(λ, T) dλ in linear sRGB; deep red lies outside the gamut and has a negative blue
+/// component.
 #[must_use]
 pub fn film_colour(kelvin: f32) -> Vec3 {
     ON_FILM.at(kelvin)
 }
 
-/// The components of RGB mode: means under the positive part of each channel's response, as for any spectrum.
+/// Components in RGB mode: means under the positive part of each channel's response, as for any spectrum.
 #[must_use]
 pub fn rgb(kelvin: f32) -> Vec3 {
     IN_RGB.at(kelvin)
@@ -77,7 +79,7 @@ mod tests {
 
     #[test]
     fn hotter_is_brighter_and_bluer() {
-        // Below, blue is out of the gamut.
+        // Below 2000 K blue is out of the gamut.
         let mut before = film_colour(2000.0);
         for hundreds in 21..=150u16 {
             let now = film_colour(f32::from(hundreds) * 100.0);

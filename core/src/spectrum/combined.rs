@@ -1,12 +1,13 @@
-//! A spectrum that follows from two others, wavelength by wavelength.
+//! Spectra computed from two others, wavelength by wavelength.
 
 use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum};
 
-/// What two values at one wavelength make. Where both change linearly with the wavelength, it must not be largest
-/// in between: a sum, a share, a reciprocal, a monotone function of one of them.
+/// Function of two values at one wavelength. On an interval where both arguments are linear in wavelength,
+/// its maximum has to be at an end of the interval: a sum, a ratio, a reciprocal, a monotone function of one
+/// of them.
 pub type Rule = fn(f32, f32) -> f32;
 
-/// A rule of two spectra, times a factor.
+/// A rule applied to two spectra, times a factor.
 #[derive(Clone, Debug)]
 pub(super) struct Combined {
     pub a: Spectrum,
@@ -16,19 +17,20 @@ pub(super) struct Combined {
 }
 
 impl Combined {
-    /// The value at a wavelength in nanometres.
+    /// Value at a wavelength in nanometres.
     pub fn at(&self, lambda_nm: f32) -> f32 {
         self.factor * (self.rule)(self.a.at(lambda_nm), self.b.at(lambda_nm))
     }
 
-    /// The wavelengths between which both are linear, beside the rows of the sensor's table.
+    /// Wavelengths between which both spectra are linear, besides the rows of the sensor's table.
     pub fn knots(&self) -> Vec<f32> {
         let mut knots = self.a.knots();
         knots.extend(self.b.knots());
         knots
     }
 
-    /// The largest value over the rendered wavelengths: at a knot, on either side of it, or at a row of the table.
+    /// Maximum over the rendered wavelengths, found at a knot, on either side of it, or at a row of the
+    /// table.
     pub fn largest(&self) -> f32 {
         let rows = (0..=94u8).map(|i| LAMBDA_MIN_NM + 5.0 * f32::from(i));
         let knots = self.knots().into_iter().flat_map(|l| [l.next_down(), l, l.next_up()]);

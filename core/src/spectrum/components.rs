@@ -1,67 +1,68 @@
-//! What the components of a path stand for.
+//! Components of a path: wavelengths or colour channels.
 
 use super::{Sampled, Spectrum, WavelengthSampling};
 use glam::Vec3;
 use std::ops::{AddAssign, Mul};
 
-/// The `N` components that one path carries, component 0 being the hero.
+/// The `N` components of a path, component 0 being the hero.
 ///
-/// The set is symmetric: rotating it makes another member the hero with the same probability, which is
-/// what lets the balance heuristic average over possible heroes (Wilkie et al. 2014).
+/// The set is symmetric: rotating it makes another member the hero with the same probability, so the balance
+/// heuristic can average over possible heroes (Wilkie et al. 2014).
 pub trait Components<const N: usize>: Copy + Send + Sync {
-    /// Radiance as a path gathers it.
+    /// Radiance carried by a path.
     type Radiance: Radiance<N>;
 
-    /// Draws the set from a number uniform in [0, 1).
-    fn sample(u: f32, wavelengths: WavelengthSampling) -> Self;
+    /// Samples the set from a number uniform in [0, 1). `wavelengths` selects the distribution of
+    /// wavelengths; `None` in RGB mode.
+    fn sample(u: f32, wavelengths: Option<WavelengthSampling>) -> Self;
 
-    /// A coefficient (extinction, albedo) at the components.
+    /// Evaluates a coefficient (extinction, albedo) at the components.
     fn evaluate(&self, spectrum: &Spectrum) -> Sampled<N>;
 
-    /// A coefficient that is given as linear sRGB, at the components.
+    /// Evaluates a coefficient given as linear sRGB at the components.
     fn upsample(&self, rgb: Vec3) -> Sampled<N>;
 
-    /// Radiance at the components.
+    /// Evaluates a radiance spectrum at the components.
     fn radiance(&self, spectrum: &Spectrum) -> Self::Radiance;
 
-    /// Radiance that is given as linear sRGB, at the components.
+    /// Evaluates a radiance given as linear sRGB at the components.
     fn radiance_of_rgb(&self, rgb: Vec3) -> Self::Radiance;
 
-    /// Radiance of a black body of so many kelvins, at the components.
+    /// Evaluates the radiance of a black body at a temperature in kelvins.
     fn blackbody(&self, kelvin: f32) -> Self::Radiance;
 
-    /// What they are.
+    /// Describes the components for display.
     fn carried(&self) -> Carried;
 
-    /// The linear sRGB estimate that radiance at the components amounts to.
+    /// Converts radiance at the components to its estimate of linear sRGB.
     fn to_film(&self, radiance: Self::Radiance) -> Vec3;
 }
 
-/// Radiance that a path gathers, to be weighted component by component.
+/// Radiance of a path, weighted component by component.
 pub trait Radiance<const N: usize>: Copy + AddAssign + Mul<Sampled<N>, Output = Self> {
-    /// No light.
+    /// Zero radiance.
     const BLACK: Self;
 
-    /// Its numbers: one per component, or those of the film.
+    /// Values per component, or per film channel for grey paths.
     fn lanes(&self) -> Lanes;
 }
 
-/// Values at the components of a path, of which there are at most four; the hero's first, zero beyond the last.
+/// Values at the components of a path, at most four; the hero first, zero beyond the last.
 pub type Lanes = [f32; 4];
 
-/// What the components of a path stand for.
+/// Description of the components of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Carried {
-    /// Wavelengths in nanometres: so many of these.
+    /// Wavelengths in nanometres, and their number.
     Wavelengths(Lanes, usize),
-    /// Channels of the film, 0 to 2: so many of these.
+    /// Film channels, 0 to 2, and their number.
     Channels(Lanes, usize),
-    /// One weight for all: nothing has a colour, and what a path gathers is in the colours of the film.
+    /// One weight for all wavelengths: an achromatic path, whose radiance is in film channels.
     Grey,
 }
 
 impl Carried {
-    /// Components that have weights of their own.
+    /// Number of components with separate weights.
     #[must_use]
     pub fn count(&self) -> usize {
         match self {

@@ -1,4 +1,4 @@
-//! A spectrum as a person writes it: one number, control points, a colour or a preset's name.
+//! Editable spectrum: a number, control points, a colour or the name of a preset.
 
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -6,23 +6,23 @@ use std::fmt;
 
 use super::presets;
 
-/// What a spectrum is beyond its first and last control point.
+/// Extrapolation of a spectrum beyond its first and last control point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outside {
-    /// The value of the nearest end.
+    /// The value of the nearest control point.
     #[default]
     Hold,
     /// Zero.
     Zero,
 }
 
-/// One control point of a spectrum.
+/// Control point of a spectrum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlPoint {
     /// Wavelength in nanometres.
     pub lambda_nm: f32,
-    /// Value there, in the unit of the quantity that the spectrum describes.
+    /// Value, in the unit of the quantity that the spectrum describes.
     pub value: f32,
 }
 
@@ -33,30 +33,31 @@ pub struct ControlPoint {
 /// | `0.99` | the same value at every wavelength |
 /// | `"430:8, 540:40, 572:8"` | control points, `wavelength in nm : value`, linear between |
 /// | `"rayleigh"` | a preset by its id, see [`crate::spectrum::presets`] |
-/// | `{ points = "430:8, 540:40", outside = "zero" }` | points that are zero beyond their ends (default `hold`) |
+/// | `{ points = "430:8, 540:40", outside = "zero" }` | control points, zero beyond the ends (default `hold`)
+/// |
 /// | `{ rgb = [0.9, 0.5, 0.2] }` | linear sRGB |
 #[derive(Clone, Debug, PartialEq)]
 pub enum SpectrumDoc {
     /// One value at every wavelength.
     Constant(f32),
-    /// Control points in rising order of wavelength, linear between.
+    /// Control points in increasing order of wavelength, linear between.
     Points {
-        /// The points; at least one.
+        /// Control points; at least one.
         points: Vec<ControlPoint>,
-        /// Beyond the ends.
+        /// Extrapolation beyond the ends.
         outside: Outside,
     },
     /// Linear sRGB components.
     Rgb([f32; 3]),
-    /// The id of a preset.
+    /// Id of a preset.
     Preset(String),
 }
 
 impl SpectrumDoc {
-    /// Parses `"430:8, 540:40"`: control points separated by commas, wavelengths in nm and rising.
+    /// Parses `"430:8, 540:40"`: control points separated by commas, with increasing wavelengths in nm.
     ///
     /// # Errors
-    /// A sentence that says which point is wrong and what is expected.
+    /// A message with the invalid point and the expected form.
     pub fn parse_points(text: &str) -> Result<Vec<ControlPoint>, String> {
         let mut points: Vec<ControlPoint> = Vec::new();
         for part in text.split(',').map(str::trim).filter(|p| !p.is_empty()) {
@@ -71,7 +72,7 @@ impl SpectrumDoc {
                 && point.lambda_nm <= last.lambda_nm
             {
                 return Err(format!(
-                    "control points must rise in wavelength: {} nm follows {} nm",
+                    "control points must increase in wavelength: {} nm follows {} nm",
                     point.lambda_nm, last.lambda_nm
                 ));
             }
@@ -83,14 +84,14 @@ impl SpectrumDoc {
         Ok(points)
     }
 
-    /// The points as they are written in a scene file.
+    /// Formats control points as in a scene file.
     #[must_use]
     pub fn format_points(points: &[ControlPoint]) -> String {
         let parts: Vec<String> = points.iter().map(|p| format!("{}:{}", p.lambda_nm, p.value)).collect();
         parts.join(", ")
     }
 
-    /// The control points that an editor shows: those of `Points` and of presets, the ends of a constant.
+    /// Control points for an editor: those of `Points` and presets; `None` for constants and colours.
     #[must_use]
     pub fn control_points(&self) -> Option<(Vec<ControlPoint>, Outside)> {
         match self {

@@ -1,8 +1,8 @@
-//! The achromatic shortcut: where nothing that a path meets has a colour, all components share its
+//! Achromatic paths: where medium and surfaces are independent of wavelength, all components share one
 //! weight, and the integral over wavelengths factors out of transport.
 //!
-//! The path then carries one component, and what it gathers is each light's own colour on the film:
-//! ∫ response(λ) Le(λ) dλ in closed form. No noise in colour is left.
+//! The path then carries one component. Its radiance is the colour of each light on the film, ∫ response(λ)
+//! Le(λ) dλ, in closed form. No colour noise remains.
 
 use super::{
     Carried, Components, Lanes, Radiance, Sampled, Spectrum, WavelengthSampling, blackbody, observer,
@@ -10,11 +10,14 @@ use super::{
 use glam::Vec3;
 use std::ops::{AddAssign, Mul};
 
-/// The one component of a path through an achromatic scene.
+/// The single component of a path through an achromatic scene.
 #[derive(Clone, Copy, Debug)]
-pub struct Grey<const SPECTRAL: bool>;
+pub struct Grey {
+    /// Whether the film integrates over wavelengths, or keeps RGB channels.
+    spectral: bool,
+}
 
-/// Light in the colour in which it reaches the film.
+/// Radiance as linear sRGB on the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmColour(pub Vec3);
 
@@ -39,11 +42,11 @@ impl Radiance<1> for FilmColour {
     }
 }
 
-impl<const SPECTRAL: bool> Components<1> for Grey<SPECTRAL> {
+impl Components<1> for Grey {
     type Radiance = FilmColour;
 
-    fn sample(_: f32, _: WavelengthSampling) -> Self {
-        Self
+    fn sample(_: f32, wavelengths: Option<WavelengthSampling>) -> Self {
+        Self { spectral: wavelengths.is_some() }
     }
 
     fn evaluate(&self, spectrum: &Spectrum) -> Sampled<1> {
@@ -55,15 +58,15 @@ impl<const SPECTRAL: bool> Components<1> for Grey<SPECTRAL> {
     }
 
     fn radiance(&self, spectrum: &Spectrum) -> FilmColour {
-        FilmColour(if SPECTRAL { spectrum.film_colour() } else { spectrum.rgb() })
+        FilmColour(if self.spectral { spectrum.film_colour() } else { spectrum.rgb() })
     }
 
     fn radiance_of_rgb(&self, rgb: Vec3) -> FilmColour {
-        FilmColour(if SPECTRAL { observer::film_colour_of_rgb(rgb) } else { rgb })
+        FilmColour(if self.spectral { observer::film_colour_of_rgb(rgb) } else { rgb })
     }
 
     fn blackbody(&self, kelvin: f32) -> FilmColour {
-        FilmColour(if SPECTRAL { blackbody::film_colour(kelvin) } else { blackbody::rgb(kelvin) })
+        FilmColour(if self.spectral { blackbody::film_colour(kelvin) } else { blackbody::rgb(kelvin) })
     }
 
     fn carried(&self) -> Carried {
@@ -93,15 +96,15 @@ mod tests {
             let mut sum = Vec3::ZERO;
             for i in 0..n {
                 let u = (f32::from(i) + 0.5) / f32::from(n);
-                let set = Wavelengths::<1>::sample(u, WavelengthSampling::Uniform);
+                let set = Wavelengths::<1>::sample(u, Some(WavelengthSampling::Uniform));
                 sum += set.to_film(set.radiance(&spectrum));
             }
-            let FilmColour(colour) = Grey::<true>.radiance(&spectrum);
+            let FilmColour(colour) = Grey { spectral: true }.radiance(&spectrum);
             let apart = (sum / f32::from(n) - colour).abs().max_element();
             assert!(apart < 1e-3 * colour.max_element(), "{doc:?}: {sum} {colour}");
         }
-        let FilmColour(white) = Grey::<true>.radiance_of_rgb(Vec3::ONE);
+        let FilmColour(white) = Grey { spectral: true }.radiance_of_rgb(Vec3::ONE);
         assert!((white - Vec3::ONE).abs().max_element() < 4e-3, "{white}");
-        assert_eq!(Grey::<false>.radiance_of_rgb(Vec3::X), FilmColour(Vec3::X));
+        assert_eq!(Grey { spectral: false }.radiance_of_rgb(Vec3::X), FilmColour(Vec3::X));
     }
 }

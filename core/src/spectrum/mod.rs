@@ -1,8 +1,8 @@
-//! Wavelengths, colours and what lies between them.
+//! Spectra, wavelengths and colour.
 //!
-//! A path carries a few *components*: in spectral mode wavelengths (the hero and its rotations), in
-//! RGB mode the three channels, in independent tracking only one of either. Everything downstream is
-//! generic over [`Components`], so both modes are the same code.
+//! A path carries a few *components*: wavelengths in spectral mode (the hero and its rotations), the three
+//! channels in RGB mode, and only one of either in independent tracking. All code downstream is generic over
+//! [`Components`], so both modes share it.
 
 mod blackbody;
 mod combined;
@@ -28,9 +28,9 @@ pub use sampled::Sampled;
 pub use shape::{Quantity, Spectrum};
 pub use wavelengths::{WavelengthSampling, Wavelengths};
 
-/// The shortest wavelength that is rendered, in nanometres.
+/// Shortest rendered wavelength, in nanometres.
 pub const LAMBDA_MIN_NM: f32 = 360.0;
-/// The longest wavelength that is rendered, in nanometres.
+/// Longest rendered wavelength, in nanometres.
 pub const LAMBDA_MAX_NM: f32 = 830.0;
-/// The width of the rendered range, in nanometres.
+/// Width of the rendered range, in nanometres.
 pub const LAMBDA_RANGE_NM: f32 = LAMBDA_MAX_NM - LAMBDA_MIN_NM;

@@ -1,8 +1,8 @@
-//! The sensor: the CIE 1931 2° observer, and linear sRGB (IEC 61966-2-1) from it.
+//! Sensor model: the CIE 1931 2° observer, and linear sRGB (IEC 61966-2-1) derived from it.
 //!
 //! Normalised so that constant radiance 1 gives X = Y = Z = 1, as illuminant E does by definition (the
-//! tabulated curves' own integrals differ by 0.03 %); it shows as linear sRGB (1.2050, 0.9483, 0.9086). Tables are sampled every 5 nm and linear
-//! between; their sources stand in `assets/spectra/README.md`.
+//! integrals of the tabulated curves differ by 0.03 %). Its linear sRGB is (1.2050, 0.9483, 0.9086). Tables
+//! are sampled every 5 nm and linear between; sources are listed in `assets/spectra/README.md`.
 
 use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 use glam::{Mat3, Vec3};
@@ -15,7 +15,7 @@ const ROWS: usize = 95;
 struct Table([Vec3; ROWS]);
 
 impl Table {
-    /// Reads `lambda_nm,a[,b,c]` lines; the files are part of the program, and a test reads them.
+    /// Parses `lambda_nm,a[,b,c]` lines. The files are embedded in the program and covered by a test.
     fn parse(csv: &str) -> Self {
         let mut rows = [Vec3::ZERO; ROWS];
         let lines = csv.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
@@ -68,49 +68,50 @@ static ILLUMINANT: LazyLock<Table> = LazyLock::new(|| {
     table.map(|power| power / y)
 });
 
-/// Linear sRGB from XYZ, by columns: from the chromaticities of IEC 61966-2-1 with the white point D65. Published
-/// matrices round the white point, by up to 3·10⁻⁴ in blue.
+/// Linear sRGB from XYZ, by columns, computed from the chromaticities of IEC 61966-2-1 with the white point
+/// D65. Published matrices round the white point, with errors of up to 3·10⁻⁴ in blue.
 const SRGB_FROM_XYZ: Mat3 = Mat3::from_cols(
     Vec3::new(3.240_97, -0.969_243_6, 0.055_630_08),
     Vec3::new(-1.537_383_2, 1.875_967_5, -0.203_976_96),
     Vec3::new(-0.498_610_76, 0.041_555_06, 1.056_971_5),
 );
 
-/// What radiance 1 per nanometre at one wavelength adds to the film, in linear sRGB per nm.
+/// Contribution of radiance 1 per nanometre at one wavelength to the film, in linear sRGB per nm.
 #[must_use]
 pub fn response(lambda_nm: f32) -> Vec3 {
     RESPONSE.at(lambda_nm)
 }
 
-/// The three basis spectra at a wavelength: each in 0..1, together 1, and under daylight (D65) each
-/// shows as one primary of sRGB, to 0.3 %. After Mallett and Yuksel 2019.
+/// The three basis spectra at a wavelength: each in 0..1, with sum 1. Under daylight (D65) each has the
+/// colour of one sRGB primary, to 0.3 %. After Mallett and Yuksel 2019.
 pub(super) fn basis(lambda_nm: f32) -> Vec3 {
     BASIS.at(lambda_nm)
 }
 
-/// Daylight (CIE D65), scaled to Y = 1: it shows as linear sRGB (1, 1, 1).
+/// Daylight (CIE D65), scaled to Y = 1: its linear sRGB is (1, 1, 1).
 pub(super) fn daylight(lambda_nm: f32) -> f32 {
     ILLUMINANT.at(lambda_nm).x
 }
 
-/// A displayable colour (linear sRGB, 0 to 1) that stands for a wavelength, to label axes with.
+/// Displayable colour (linear sRGB, 0 to 1) of a wavelength, for labelling axes.
 #[must_use]
 pub fn wavelength_colour(lambda_nm: f32) -> [f32; 3] {
-    // Monochromatic light lies outside sRGB: lift it into the gamut, then scale to the curve's height.
+    // Monochromatic light lies outside sRGB: move it into the gamut, then scale it by the observer's curve.
     let rgb = response(lambda_nm);
     let lifted = rgb - Vec3::splat(rgb.min_element().min(0.0));
     let visible = (OBSERVER.at(lambda_nm).element_sum() * 55.0).clamp(0.0, 1.0);
     (lifted / lifted.max_element().max(1e-9) * visible).to_array()
 }
 
-/// ∫ response(λ) f(λ) dλ, for an `f` that is a polynomial of degree at most 4 between the rows of the sensor's
-/// table and the wavelengths `cuts`: exact but for rounding. Values at the cuts themselves are not asked for.
+/// ∫ response(λ) f(λ) dλ, for an `f` that is a polynomial of degree at most 4 between the rows of the
+/// sensor's table and the wavelengths `cuts`: exact up to rounding. `f` is not evaluated at the cuts
+/// themselves.
 pub(super) fn film_colour(f: impl Fn(f32) -> f32, cuts: impl Iterator<Item = f32>) -> Vec3 {
     let rows = (0..ROWS).map(|i| LAMBDA_MIN_NM + STEP_NM * i as f32);
     let inside = cuts.filter(|l| (LAMBDA_MIN_NM..LAMBDA_MAX_NM).contains(l));
     let mut nodes: Vec<f32> = rows.chain(inside).collect();
     nodes.sort_by(f32::total_cmp);
-    // Gauss and Legendre's rule with three points.
+    // Three-point Gauss–Legendre rule.
     let offset = 0.6f32.sqrt();
     let rule = [(-offset, 5.0 / 18.0), (0.0, 8.0 / 18.0), (offset, 5.0 / 18.0)];
     let mut sum = Vec3::ZERO;
@@ -129,12 +130,13 @@ static FILM_FROM_RGB: LazyLock<Mat3> = LazyLock::new(|| {
     Mat3::from_cols(column(0), column(1), column(2))
 });
 
-/// What radiance that is given as linear sRGB shows as, over all wavelengths: the same to 0.3 %.
+/// Film colour of a radiance given as linear sRGB, integrated over all wavelengths: equal to the input to 0.3
+/// %.
 pub(super) fn film_colour_of_rgb(rgb: Vec3) -> Vec3 {
     *FILM_FROM_RGB * rgb
 }
 
-/// Means of a spectrum under the positive part of the response of each channel: the components of RGB mode.
+/// Means of a spectrum under the positive part of each channel's response: the components of RGB mode.
 pub(super) fn band_means(f: impl Fn(f32) -> f32) -> Vec3 {
     let weight = |lambda| response(lambda).max(Vec3::ZERO);
     integrate(|l| weight(l) * f(l)) / integrate(weight)

@@ -1,15 +1,15 @@
-//! Straight lines between control points.
+//! Piecewise linear spectra.
 
 use super::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside};
 
-/// A piecewise linear function of wavelength.
+/// Piecewise linear function of wavelength.
 #[derive(Clone, Debug)]
 pub(super) struct Polyline {
-    /// By ascending wavelength.
+    /// In increasing order of wavelength.
     points: Vec<ControlPoint>,
     outside: Outside,
-    /// For every whole nanometre of the rendered range, how many points lie at or before it: where the search for a
-    /// wavelength begins.
+    /// For every whole nanometre of the rendered range, the number of points at or before it: the start of
+    /// the search for a wavelength.
     before: Vec<u32>,
 }
 
@@ -26,7 +26,7 @@ impl Polyline {
         &self.points
     }
 
-    /// Whether it has the same value everywhere.
+    /// Returns whether the value is the same at every wavelength.
     pub fn is_flat(&self) -> bool {
         self.outside == Outside::Hold && self.points.windows(2).all(|p| p[0].value == p[1].value)
     }
@@ -53,7 +53,7 @@ impl Polyline {
         }
     }
 
-    /// How many points lie at or before a wavelength.
+    /// Number of points at or before a wavelength.
     fn after(&self, lambda_nm: f32) -> usize {
         let step = lambda_nm - LAMBDA_MIN_NM;
         let start = if step >= 0.0 { self.before.get(step as usize) } else { None };

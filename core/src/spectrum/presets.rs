@@ -1,9 +1,9 @@
-//! Spectra to start from, for extinction, albedo and light. One line adds one.
+//! Named spectra for extinction, albedo and light, one entry each.
 
-/// What a spectrum may stand for.
+/// Quantity that a preset describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
-    /// Extinction of density 1.
+    /// Relative extinction.
     Extinction,
     /// Albedo or reflectance, 0 to 1.
     Albedo,
@@ -14,17 +14,17 @@ pub enum Use {
 /// A named spectrum.
 #[derive(Clone, Copy, Debug)]
 pub struct Preset {
-    /// How a scene file names it.
+    /// Id in scene files.
     pub id: &'static str,
-    /// What it makes sense for.
+    /// Quantities that the preset is meaningful for.
     pub uses: &'static [Use],
-    /// One line for people.
+    /// One-line description.
     pub summary: &'static str,
     /// Control points, `nm:value`.
     pub points: &'static str,
 }
 
-/// Every preset, in the order that pickers show.
+/// All presets, in display order.
 pub const PRESETS: &[Preset] = &[
     Preset {
         id: "report-plume",
@@ -35,7 +35,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         id: "grey",
         uses: &[Use::Extinction, Use::Albedo, Use::Light],
-        summary: "the same at every wavelength",
+        summary: "constant over wavelength",
         points: "360:1, 830:1",
     },
     Preset {
@@ -77,35 +77,35 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         id: "amber-albedo",
         uses: &[Use::Albedo],
-        summary: "an invented albedo: brown smoke that glows amber where it is thick",
+        summary: "an invented albedo: brown smoke that turns amber where it is thick",
         points: "400:0.45, 450:0.58, 500:0.72, 550:0.84, 600:0.92, 650:0.96, 700:0.975",
     },
     Preset {
         id: "rose-albedo",
         uses: &[Use::Albedo],
-        summary: "an invented albedo: absorbs green a little, thick parts turn rose",
+        summary: "an invented albedo: absorbs some green, thick parts turn rose",
         points: "400:0.95, 450:0.93, 500:0.86, 540:0.8, 570:0.86, 600:0.97, 700:0.99",
     },
     Preset {
         id: "tungsten",
         uses: &[Use::Light],
-        summary: "light of an incandescent lamp (CIE illuminant A), 1 at 560 nm",
+        summary: "spectrum of an incandescent lamp (CIE illuminant A), 1 at 560 nm",
         points: "360:0.06145, 400:0.1471, 450:0.3309, 500:0.5986, 560:1, 620:1.436, 680:1.854, 750:2.27, 830:2.616",
     },
 ];
 
-/// The preset with this id.
+/// Returns the preset with this id.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|p| p.id == id)
 }
 
-/// The presets that make sense for something.
+/// Returns the presets that are meaningful for a quantity.
 pub fn suiting(use_: Use) -> impl Iterator<Item = &'static Preset> {
     PRESETS.iter().filter(move |p| p.uses.contains(&use_))
 }
 
-/// Every id, for messages.
+/// Ids of all presets, for messages.
 #[must_use]
 pub fn ids() -> Vec<&'static str> {
     PRESETS.iter().map(|p| p.id).collect()

@@ -1,11 +1,11 @@
-//! Values at a path's components.
+//! Values at the components of a path.
 
 use super::Lanes;
 use crate::math;
 use std::ops::{Add, AddAssign, Div, Index, Mul, MulAssign, Neg, Sub};
 
-/// One value for each of a path's `N` components: 4 wavelengths, 3 colour channels, or a single one.
-/// Component 0 is the hero, whose coefficients drive every sampling decision.
+/// One value for each of the `N` components of a path: 4 wavelengths, 3 colour channels, or a single one.
+/// Component 0 is the hero, whose coefficients drive all sampling decisions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampled<const N: usize>(pub [f32; N]);
 
@@ -15,25 +15,25 @@ impl<const N: usize> Sampled<N> {
     /// All one.
     pub const ONE: Self = Self([1.0; N]);
 
-    /// The same value everywhere.
+    /// The same value for all components.
     #[must_use]
     pub const fn splat(value: f32) -> Self {
         Self([value; N])
     }
 
-    /// `f` of every component.
+    /// Applies `f` to every component.
     #[must_use]
     pub fn map(self, f: impl FnMut(f32) -> f32) -> Self {
         Self(self.0.map(f))
     }
 
-    /// `f` of every pair of components.
+    /// Applies `f` to every pair of components.
     #[must_use]
     pub fn zip(self, other: Self, mut f: impl FnMut(f32, f32) -> f32) -> Self {
         Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
     }
 
-    /// The hero's value.
+    /// Value of the hero.
     #[must_use]
     pub const fn hero(&self) -> f32 {
         self.0[0]
@@ -45,26 +45,26 @@ impl<const N: usize> Sampled<N> {
         self.0.iter().sum::<f32>() / N as f32
     }
 
-    /// The largest component.
+    /// Maximum over the components.
     #[must_use]
     pub fn max_component(self) -> f32 {
         self.0.iter().copied().fold(f32::NEG_INFINITY, f32::max)
     }
 
-    /// Whether every component is exactly zero.
+    /// Returns whether every component is exactly zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.0.iter().all(|x| *x == 0.0)
     }
 
-    /// e to the power of every component.
+    /// Exponential of every component.
     #[must_use]
     #[inline]
     pub fn exp(self) -> Self {
         self.map(math::exp)
     }
 
-    /// Its values, as many as any path has.
+    /// The values as a fixed-size array, padded with zeros.
     #[must_use]
     pub fn lanes(self) -> Lanes {
         let mut lanes = [0.0; 4];

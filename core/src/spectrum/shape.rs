@@ -1,28 +1,28 @@
-//! A spectrum as the renderer evaluates it.
+//! Frozen spectra, as the renderer evaluates them.
 
 use super::combined::{Combined, Rule};
 use super::polyline::Polyline;
 use super::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, SpectrumDoc, observer, presets};
 use glam::Vec3;
 
-/// What a spectrum is a spectrum of; it decides how linear sRGB becomes one.
+/// Quantity that a spectrum describes; it determines the conversion from linear sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Extinction, albedo, reflectance: equal components are constant over wavelength.
+    /// Extinction, albedo or reflectance: equal sRGB components are constant over wavelength.
     Coefficient,
-    /// Radiance: equal components are daylight, so that the film shows the colour that was written.
+    /// Radiance: equal sRGB components are daylight, so that the film reproduces the given colour.
     Radiance,
 }
 
-/// A frozen spectrum: a function of wavelength, and the three numbers that stand for it in RGB mode.
+/// Frozen spectrum: a function of wavelength, and its three components in RGB mode.
 ///
-/// In RGB mode a component is the spectrum's mean under the positive part of the sensor's response for
-/// that channel: a constant stays constant, and a mean never leaves the spectrum's own range.
+/// A component in RGB mode is the spectrum's mean under the positive part of the sensor's response for that
+/// channel. A constant stays constant, and a mean never leaves the range of the spectrum.
 #[derive(Clone, Debug)]
 pub struct Spectrum {
     shape: Shape,
     rgb: Vec3,
-    /// What it shows as on the film of spectral mode, were it radiance.
+    /// Film colour in spectral mode, if the spectrum is radiance.
     film: Vec3,
 }
 
@@ -36,8 +36,8 @@ enum Shape {
 }
 
 impl Spectrum {
-    /// Freezes an editable spectrum. Presets that do not exist were refused when it was read or
-    /// validated; here they are zero.
+    /// Freezes an editable spectrum. Unknown presets were rejected when the spectrum was read or validated;
+    /// here they are zero.
     #[must_use]
     pub fn new(doc: &SpectrumDoc, quantity: Quantity) -> Self {
         let shape = match doc {
@@ -61,14 +61,14 @@ impl Spectrum {
         Self { shape, rgb, film }
     }
 
-    /// The same value at every wavelength.
+    /// Creates a spectrum with the same value at every wavelength.
     #[must_use]
     pub fn constant(value: f32) -> Self {
         let shape = Shape::Constant(value);
         Self { film: shape.film_colour(), shape, rgb: Vec3::splat(value) }
     }
 
-    /// `rule` of two spectra, at every wavelength and in every component of RGB mode.
+    /// Applies `rule` to two spectra, at every wavelength and in every component of RGB mode.
     #[must_use]
     pub fn combined(a: Self, b: Self, rule: Rule) -> Self {
         if let (Shape::Constant(a), Shape::Constant(b)) = (&a.shape, &b.shape) {
@@ -79,12 +79,12 @@ impl Spectrum {
         Self { rgb, film: shape.film_colour(), shape }
     }
 
-    /// The wavelengths between which it is linear, beside the rows of the sensor's table.
+    /// Wavelengths between which the spectrum is linear, besides the rows of the sensor's table.
     pub(super) fn knots(&self) -> Vec<f32> {
         self.shape.knots()
     }
 
-    /// Every value multiplied by `factor`.
+    /// Multiplies every value by `factor`.
     #[must_use]
     pub fn scaled(mut self, factor: f32) -> Self {
         self.rgb *= factor;
@@ -98,37 +98,37 @@ impl Spectrum {
         self
     }
 
-    /// The value at a wavelength in nanometres.
+    /// Value at a wavelength in nanometres.
     #[must_use]
     pub fn at(&self, lambda_nm: f32) -> f32 {
         self.shape.at(lambda_nm)
     }
 
-    /// The three components of RGB mode.
+    /// Components in RGB mode.
     #[must_use]
     pub fn rgb(&self) -> Vec3 {
         self.rgb
     }
 
-    /// Whether it has the same value at every wavelength, and in every component of RGB mode.
+    /// Returns whether the value is the same at every wavelength and in every component of RGB mode.
     #[must_use]
     pub fn is_flat(&self) -> bool {
         matches!(self.shape, Shape::Constant(_))
     }
 
-    /// As radiance: its linear sRGB on the film of spectral mode, ∫ response(λ) Le(λ) dλ.
+    /// Linear sRGB on the film in spectral mode, if the spectrum is radiance: ∫ response(λ) Le(λ) dλ.
     #[must_use]
     pub fn film_colour(&self) -> Vec3 {
         self.film
     }
 
-    /// The largest value over the rendered wavelengths.
+    /// Maximum over the rendered wavelengths.
     #[must_use]
     pub fn max_over_wavelengths(&self) -> f32 {
         let mut max = self.at(LAMBDA_MIN_NM).max(self.at(LAMBDA_MAX_NM));
         match &self.shape {
             Shape::Constant(_) => {}
-            // A piecewise linear function is largest at a point or at an end of the range.
+            // The maximum of a piecewise linear function is at a point or at an end of the range.
             Shape::Points(line) => {
                 for p in
                     line.points().iter().filter(|p| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(&p.lambda_nm))
@@ -151,7 +151,7 @@ impl Spectrum {
 }
 
 impl Spectrum {
-    /// The largest value over the rendered wavelengths and the three components of RGB mode.
+    /// Maximum over the rendered wavelengths and the three components of RGB mode.
     #[must_use]
     pub fn largest(&self) -> f32 {
         self.max_over_wavelengths().max(self.rgb.max_element())
@@ -159,7 +159,7 @@ impl Spectrum {
 }
 
 impl Shape {
-    /// A constant, where it is one in other words.
+    /// Replaces a shape that is constant by `Constant`.
     fn simplified(self) -> Self {
         match self {
             Self::Points(line) if line.is_flat() => {
@@ -194,13 +194,13 @@ impl Shape {
 }
 
 impl SpectrumDoc {
-    /// The value at a wavelength in nanometres, as a coefficient.
+    /// Value at a wavelength in nanometres, for a coefficient.
     #[must_use]
     pub fn value_at(&self, lambda_nm: f32) -> f32 {
         Spectrum::new(self, Quantity::Coefficient).at(lambda_nm)
     }
 
-    /// Every number in it, for validation.
+    /// All values, for validation.
     #[must_use]
     pub fn values(&self) -> Vec<f32> {
         match self {

@@ -1,4 +1,4 @@
-//! Spectral mode: components are wavelengths.
+//! Spectral mode: the components of a path are wavelengths.
 
 use super::{
     Carried, Components, LAMBDA_MAX_NM, LAMBDA_MIN_NM, LAMBDA_RANGE_NM, Sampled, Spectrum, blackbody,
@@ -8,33 +8,36 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-/// How the hero's wavelength is drawn; the others are rotations of it by 1/N of the probability.
+/// Distribution of the hero wavelength. The other wavelengths are rotations of it by 1/N in the primary
+/// sample space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WavelengthSampling {
-    /// Where the sensor responds most, most often.
+    /// Proportional to the response of the sensor, with a small uniform part.
     #[default]
     Sensor,
-    /// Uniformly over 360–830 nm, as in the report: relMSE ×2.4 on the embedded plume, with look-ups ×0.7, as many of the
-    /// wavelengths drawn hardly see the medium, nor are seen.
+    /// Uniform over 360–830 nm, as in the report: relMSE ×2.4 on the embedded plume, with look-ups ×0.7,
+    /// because many of the sampled wavelengths barely interact with the medium and barely contribute to the
+    /// film.
     Uniform,
 }
 
-/// Wavelengths, each drawn with a density of its own.
+/// Wavelengths with their sampling densities.
 #[derive(Clone, Copy, Debug)]
 pub struct Wavelengths<const N: usize> {
-    /// In nanometres, the hero first.
+    /// Wavelengths in nanometres, the hero first.
     pub lambda_nm: [f32; N],
-    /// Density with which each was drawn, per nanometre.
+    /// Sampling density of each wavelength, per nanometre.
     pub density_per_nm: [f32; N],
 }
 
 impl<const N: usize> Components<N> for Wavelengths<N> {
     type Radiance = Sampled<N>;
 
-    /// Rotations take place in the space of the uniform number: each member of the set is drawn with the
-    /// density of the hero at its wavelength, whichever member is the hero.
-    fn sample(u: f32, wavelengths: WavelengthSampling) -> Self {
+    /// Rotations are applied to the uniform number: each wavelength of the set has the density that the hero
+    /// has there, whichever member is the hero.
+    fn sample(u: f32, wavelengths: Option<WavelengthSampling>) -> Self {
+        let wavelengths = wavelengths.unwrap_or_default();
         let mut set = Self { lambda_nm: [0.0; N], density_per_nm: [0.0; N] };
         for i in 0..N {
             let turned = (u + i as f32 / N as f32).fract();
@@ -83,17 +86,17 @@ impl<const N: usize> Components<N> for Wavelengths<N> {
     }
 }
 
-/// Steps of the sensor's quantile function.
+/// Number of steps of the sensor's quantile function.
 const STEPS: usize = 1024;
-/// Share of wavelengths that are drawn uniformly: no weight exceeds its inverse.
+/// Fraction of wavelengths that are sampled uniformly, which bounds all weights by its inverse.
 const UNIFORM: f32 = 0.04;
 
-/// A wavelength as a function of a uniform number, linear between equal steps: drawing is one look-up,
-/// and its density is exactly the inverse of the step's slope.
+/// Piecewise linear quantile function: maps a uniform number to a wavelength, in equal steps. Sampling is one
+/// look-up, and the density is exactly the inverse of the step's slope.
 struct Quantiles([f32; STEPS + 1]);
 
-/// In proportion to the length of the sensor's response, which gives the least variance summed over the
-/// film's channels to a single wavelength of white light.
+/// Density proportional to the length of the response vector, which minimises the variance of a single
+/// wavelength of white light, summed over the film's channels.
 static SENSOR: LazyLock<Quantiles> = LazyLock::new(|| {
     let importance = |lambda: f32| observer::response(lambda).length();
     let total = observer::integrate(|l| Vec3::splat(importance(l))).x;
@@ -134,8 +137,8 @@ mod tests {
         for by in [WavelengthSampling::Uniform, WavelengthSampling::Sensor] {
             let n = 9400u16;
             let hero = |i: u16| (f32::from(i) + 0.5) / f32::from(n);
-            let four = (0..n).map(|i| Wavelengths::<4>::sample(hero(i), by).to_film(Sampled::ONE));
-            let one = (0..n).map(|i| Wavelengths::<1>::sample(hero(i), by).to_film(Sampled::ONE));
+            let four = (0..n).map(|i| Wavelengths::<4>::sample(hero(i), Some(by)).to_film(Sampled::ONE));
+            let one = (0..n).map(|i| Wavelengths::<1>::sample(hero(i), Some(by)).to_film(Sampled::ONE));
             let mean = |sum: Vec3| sum / f32::from(n);
             assert!((mean(four.sum()) - expected).abs().max_element() < 3e-4, "{by:?}");
             assert!((mean(one.sum()) - expected).abs().max_element() < 3e-4, "{by:?}");
@@ -148,7 +151,7 @@ mod tests {
             let n = 4700u16;
             let hero = |i: u16| (f32::from(i) + 0.5) / f32::from(n);
             let squares: f32 = (0..n)
-                .map(|i| Wavelengths::<1>::sample(hero(i), by).to_film(Sampled::ONE).length_squared())
+                .map(|i| Wavelengths::<1>::sample(hero(i), Some(by)).to_film(Sampled::ONE).length_squared())
                 .sum();
             squares / f32::from(n) - Vec3::new(1.204_98, 0.948_28, 0.908_62).length_squared()
         };
@@ -158,12 +161,12 @@ mod tests {
 
     #[test]
     fn wavelengths_are_rotations_of_the_hero() {
-        let w = Wavelengths::<4>::sample(0.9, WavelengthSampling::Uniform);
+        let w = Wavelengths::<4>::sample(0.9, Some(WavelengthSampling::Uniform));
         for (lambda, expected) in w.lambda_nm.iter().zip([783.0, 430.5, 548.0, 665.5]) {
             assert!((lambda - expected).abs() < 1e-2);
         }
         let (a, b) = (0.9f32, (0.9f32 + 0.25).fract());
-        let [first, second] = [a, b].map(|u| Wavelengths::<4>::sample(u, WavelengthSampling::Sensor));
+        let [first, second] = [a, b].map(|u| Wavelengths::<4>::sample(u, Some(WavelengthSampling::Sensor)));
         assert!((first.lambda_nm[1] - second.lambda_nm[0]).abs() < 0.01);
         assert!((first.density_per_nm[1] / second.density_per_nm[0] - 1.0).abs() < 1e-3);
     }

@@ -8,9 +8,9 @@ use majorant_core::estimator::{self, Entry};
 use majorant_core::io::{embedded, scene_file};
 use std::path::Path;
 
-/// A run for the reference is this many times as long as a trial.
+/// Duration of the reference run, relative to that of a trial.
 const REFERENCE_TIMES: f64 = 8.0;
-/// What it takes at least, in seconds.
+/// Minimum duration of the reference run, in seconds.
 const REFERENCE_LEAST: f64 = 4.0;
 
 pub(super) fn load(arguments: &Arguments, estimators: &[&'static Entry]) -> Result<Vec<Subject>, Failure> {
@@ -19,7 +19,7 @@ pub(super) fn load(arguments: &Arguments, estimators: &[&'static Entry]) -> Resu
         names = embedded::SCENES.iter().map(|scene| scene.name.to_owned()).collect();
     }
     if arguments.reference.is_some() && names.len() != 1 {
-        let message = "--reference is a picture of one scene: name that scene, or leave --reference out";
+        let message = "--reference applies to a single scene: name that scene, or omit --reference";
         return Err(Failure::Message(message.into()));
     }
     names.iter().map(|name| subject(name, arguments, estimators)).collect()
@@ -32,7 +32,7 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
     let beside = beside.filter(|file| arguments.reference_seconds.is_none() && file.exists());
     let reference = match arguments.reference.as_ref().or(beside.as_ref()) {
         Some(file) => {
-            // Relative to where the command runs, not to the scene.
+            // Relative to the working directory, not to the scene.
             let file = std::path::absolute(file)?.to_string_lossy().into_owned();
             let (mut library, mut notes) = (source.resources.clone(), Vec::new());
             let reference = compare::open(&file, &doc, &mut library, &mut notes)?;
@@ -52,7 +52,7 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
     Ok(Subject { name: title(name), doc, library: source.resources, entrants, reference })
 }
 
-/// A file called scene.toml goes by its folder.
+/// Title of a scene: the stem of its file name, or the folder's name for a file called scene.toml.
 fn title(name: &str) -> String {
     let path = Path::new(name);
     let stem = path.file_stem().map_or_else(|| name.into(), |s| s.to_string_lossy());

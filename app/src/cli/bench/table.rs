@@ -1,18 +1,18 @@
-//! Rows as text.
+//! Text table of a benchmark.
 
 use majorant_core::bench::Row;
 use majorant_core::compare::report::words;
 
 const WIDTHS: [usize; 9] = [14, 13, 7, 7, 9, 8, 9, 27, 22];
 
-/// The heading, as wide as the lines.
+/// Heading of the table.
 pub(super) fn heading() -> String {
     let cells =
         ["scene", "estimator", "spp", "CPU s", "Mpaths/s", "look-ups", "relMSE", "efficiency", "speed-up"];
     padded(cells.map(str::to_owned))
 }
 
-/// One row.
+/// Formats a row.
 pub(super) fn line(row: &Row) -> String {
     let star = if row.heavy_tailed { "*" } else { "" };
     padded([
@@ -39,7 +39,7 @@ fn padded(cells: [String; 9]) -> String {
     cells.iter().enumerate().map(cell).collect::<Vec<_>>().join("  ").trim_end().to_owned()
 }
 
-/// What errors were measured against, and what to beware of.
+/// Notes below the table: the references, and a warning about heavy-tailed errors.
 pub(super) fn notes(rows: &[Row]) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     for row in rows {
@@ -49,7 +49,7 @@ pub(super) fn notes(rows: &[Row]) -> Vec<String> {
         }
     }
     if rows.iter().any(|row| row.heavy_tailed) {
-        notes.push("* one run has most of the error: more repeats, or longer ones, would tell".into());
+        notes.push("* one run has most of the error: use more or longer repeats".into());
     }
     notes
 }

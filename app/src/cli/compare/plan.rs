@@ -1,4 +1,4 @@
-//! What is compared: the scene's document with what the command line says.
+//! Document of a comparison: the scene, modified by the command line.
 
 use super::Arguments;
 use crate::cli::{Failure, options};
@@ -7,13 +7,13 @@ use majorant_core::estimator::{self, REGISTRY};
 use majorant_core::io::scene_file;
 use majorant_core::scene::{Fairness, Limits, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc};
 
-/// A positive number of seconds.
+/// Parses a positive number of seconds.
 pub(super) fn parse_seconds(text: &str) -> Result<f32, String> {
     let seconds = text.parse().ok().filter(|s: &f32| *s > 0.0 && s.is_finite());
-    seconds.ok_or_else(|| format!("`{text}` is no time: write seconds above 0, e.g. 20"))
+    seconds.ok_or_else(|| format!("`{text}` is not a duration: write a positive number of seconds, e.g. 20"))
 }
 
-/// The document whose views are to be rendered, each with its limit.
+/// Creates the document whose views are rendered, with the limits of each view.
 pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, Failure> {
     let assignments = options::assignments(
         &arguments.set,
@@ -41,7 +41,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
         }
     }
     if let Some(file) = &arguments.reference {
-        // Relative to where the command runs, not to the scene.
+        // Relative to the working directory, not to the scene.
         let file = std::path::absolute(file)?.to_string_lossy().into_owned();
         doc.compare.reference = ReferenceDoc::File { file };
     }
@@ -50,7 +50,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
         doc.compare.reference = ReferenceDoc::Render { estimator, spp, relative_error: None };
     }
     if doc.compare.reference == ReferenceDoc::None {
-        // What the help promises: errors too are measured against the mean of the others.
+        // As documented in the help: errors are also measured against the mean of the other views.
         doc.compare.reference = ReferenceDoc::Pooled;
     }
     if let Some(id) = &arguments.measure {
@@ -62,7 +62,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
         Some("lookups") => doc.compare.fairness = Fairness::Lookups,
         _ => {}
     }
-    // Before the baseline, which may be wrong only because an estimator is.
+    // Before the baseline, whose error may be caused by an unknown estimator.
     if let Some(problem) = estimator::validate(&doc).first() {
         return Err(Failure::Message(problem.to_string()));
     }
@@ -72,7 +72,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
     Ok(doc)
 }
 
-/// Unless they were asked for, views do not take the random numbers of the reference.
+/// Moves the first seed so that no view has the seed of the reference.
 fn keep_off(doc: &mut SceneDoc, reference: Option<u64>) {
     let Some(taken) = reference else { return };
     if (doc.render.seed..=doc.render.seed.saturating_add(MAX_VIEWS as u64)).contains(&taken) {
@@ -80,7 +80,7 @@ fn keep_off(doc: &mut SceneDoc, reference: Option<u64>) {
     }
 }
 
-/// Makes these estimators the views, with the scene's other settings and a seed each.
+/// Makes these estimators the views, with the other settings of the scene and different seeds.
 fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>) {
     doc.compare.views.clear();
     doc.compare.baseline = 0;
@@ -100,22 +100,22 @@ fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>
     }
 }
 
-/// The view of that label, or the first with that estimator.
+/// Finds the view with this label, or the first one with this estimator.
 fn baseline(doc: &SceneDoc, wanted: &str) -> Result<usize, Failure> {
     let ids: Vec<String> =
         (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
     let by_label = (0..ids.len()).find(|view| label(*view) == wanted);
     by_label.or_else(|| ids.iter().position(|id| id == wanted)).ok_or_else(|| {
         Failure::Message(format!(
-            "--baseline {wanted}: it is not compared; choose {} or a view from A to {}",
+            "--baseline {wanted}: not part of the comparison; choose {} or a view from A to {}",
             ids.join(", "),
             label(ids.len() - 1)
         ))
     })
 }
 
-/// The command as it was given. Where every view ended with as many samples, they take the place of the
-/// seconds: another machine is as fast as it is.
+/// Returns the command line for the report. If all views have the same number of samples, `--spp` replaces
+/// `--seconds`, whose result depends on the machine.
 pub(super) fn command(arguments: impl Iterator<Item = String>, experiment: &Experiment) -> String {
     let mut spp = experiment.views.iter().map(|(_, v)| v.snapshot.spp);
     let first = spp.next().unwrap_or_default();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn estimators_line_up_with_a_seed_each() {
+    fn every_estimator_gets_a_view_with_its_own_seed() {
         let mut doc = SceneDoc::default();
         doc.render.seed = 7;
         line_up(&mut doc, ["nee", "nee", "independent"].into_iter());
@@ -160,7 +160,7 @@ mod tests {
         keep_off(&mut doc, Some(2));
         assert_eq!(doc.render.seed, 3);
         keep_off(&mut doc, Some(2));
-        assert_eq!(doc.render.seed, 3, "far enough already");
+        assert_eq!(doc.render.seed, 3, "already a different seed");
         keep_off(&mut doc, None);
         assert_eq!(doc.render.seed, 3);
     }
@@ -170,7 +170,7 @@ mod tests {
         let mut doc = SceneDoc::default();
         line_up(&mut doc, ["nee", "independent"].into_iter());
         assert_eq!([baseline(&doc, "independent").ok(), baseline(&doc, "A").ok()], [Some(1), Some(0)]);
-        let Err(Failure::Message(message)) = baseline(&doc, "magic") else { panic!("it should have failed") };
+        let Err(Failure::Message(message)) = baseline(&doc, "magic") else { panic!("the baseline should have been rejected") };
         assert!(message.contains("magic") && message.contains("nee, independent"), "{message}");
     }
 }

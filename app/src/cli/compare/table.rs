@@ -1,10 +1,10 @@
-//! The ranking as a table of text.
+//! Text table of the ranking.
 
 use majorant_core::compare::report::words;
 use majorant_core::compare::{Experiment, Standing};
 use majorant_core::measure::{self, Measure, Measured};
 
-/// The table's lines, its heading first, and what the views were held against.
+/// Lines of the table, heading first, followed by the images that the views were compared with.
 pub(super) fn lines(experiment: &Experiment) -> Vec<String> {
     let chosen = measure::find(&experiment.doc.compare.measure.0).filter(|m| m.id != "relmse");
     let measures: Vec<&'static Measure> = measure::find("relmse").into_iter().chain(chosen).collect();
@@ -57,7 +57,7 @@ fn cells(s: &Standing, measures: &[&Measure]) -> Vec<String> {
     cells
 }
 
-/// One line for all views, or one for each that was held against something else.
+/// One line per reference, with the views that were compared with it.
 fn against(standings: &[Standing]) -> Vec<String> {
     let mut all: Vec<(String, Vec<&str>)> = Vec::new();
     for s in standings {

@@ -1,4 +1,4 @@
-//! The self-check over the window.
+//! Dialog of the self-check.
 
 use super::table::{TABLE_WIDTH, table_ui};
 use super::{Ending, SelfCheck, Subject};
@@ -10,7 +10,7 @@ use majorant_core::check::FAMILIES;
 use majorant_core::estimator::REGISTRY;
 use majorant_core::scene::SceneDoc;
 
-/// Shows it over the window.
+/// Shows the dialog if it is open.
 pub(in crate::lab) fn self_check_ui(
     ctx: &Context,
     check: &mut SelfCheck,
@@ -40,7 +40,7 @@ pub(in crate::lab) fn self_check_ui(
                 });
             }
         });
-    // A click beside it does not throw minutes of work away.
+    // A click outside does not discard minutes of work.
     if response.should_close() && !check.is_running() {
         commands.push(Command::CloseSelfCheck);
     }
@@ -65,8 +65,12 @@ fn choices_ui(ui: &mut Ui, check: &mut SelfCheck, commands: &mut Vec<Command>) {
             ui.scope(|ui| {
                 ui.set_max_width(230.0);
                 let options = [
-                    (Subject::BuiltIn, "Built-in cases", "Scenes with a known answer"),
-                    (Subject::ThisScene, "This scene", "The scene as it is now, estimator against estimator"),
+                    (Subject::BuiltIn, "Built-in cases", "Scenes whose expected image is known"),
+                    (
+                        Subject::ThisScene,
+                        "This scene",
+                        "Compares the estimators with each other on the current scene",
+                    ),
                 ];
                 segmented(ui, "What to check", &mut check.subject, &options);
             });
@@ -74,10 +78,10 @@ fn choices_ui(ui: &mut Ui, check: &mut SelfCheck, commands: &mut Vec<Command>) {
             ui.scope(|ui| {
                 ui.set_max_width(150.0);
                 let options = [
-                    (false, "Quick", "Sees a bias of 3 % in an image's mean"),
-                    (true, "Deep", "Sees a bias of 1 %, and adds pictures by independent renderers"),
+                    (false, "Quick", "Detects a bias of 3 % of the image mean"),
+                    (true, "Deep", "Detects a bias of 1 %, and adds images by independent renderers"),
                 ];
-                segmented(ui, "How hard to look", &mut check.deep, &options);
+                segmented(ui, "Effort", &mut check.deep, &options);
             });
         });
         ui.add_space(8.0);
@@ -102,12 +106,12 @@ fn choices_ui(ui: &mut Ui, check: &mut SelfCheck, commands: &mut Vec<Command>) {
             if ui.button("Copy as CSV").clicked() {
                 ui.ctx().copy_text(check.csv());
             }
-            ui.checkbox(&mut check.only_failures, "Only what differs");
+            ui.checkbox(&mut check.only_failures, "Failures only");
         });
     });
 }
 
-/// What will be done, until there is something to show.
+/// Describes the check until there are results.
 fn explanation_ui(ui: &mut Ui, check: &SelfCheck, doc: &SceneDoc) {
     let palette = Palette::get(ui);
     for note in &check.notes {
@@ -118,20 +122,20 @@ fn explanation_ui(ui: &mut Ui, check: &SelfCheck, doc: &SceneDoc) {
     }
     let text = match (check.subject, check.deep) {
         (Subject::BuiltIn, false) => {
-            "Every estimator is held against some sixty scenes whose answers are known from closed forms and \
-             quadrature, or against the other estimators. About half a minute; rendering goes on meanwhile."
+            "Every estimator is tested on some sixty scenes, against closed forms and quadrature, or against the \
+             other estimators. Takes about half a minute; rendering continues meanwhile."
         }
         (Subject::BuiltIn, true) => {
-            "The same scenes, looked at until a bias of 1 % would show, and the pictures that independent \
-             renderers have made of seven more. Several minutes; rendering goes on meanwhile."
+            "The same scenes, with enough samples to detect a bias of 1 %, and seven more that independent \
+             renderers have rendered. Takes several minutes; rendering continues meanwhile."
         }
         (Subject::ThisScene, false) => {
-            "Nobody knows the answer of this scene, so the estimators are held against each other, pair by pair, \
-             on a small picture of it. At most about 45 seconds."
+            "The expected image of this scene is unknown, so the estimators are compared with each other, pair by pair, \
+             on a small image. Takes at most about 45 seconds."
         }
         (Subject::ThisScene, true) => {
-            "Nobody knows the answer of this scene, so the estimators are held against each other, pair by pair, \
-             on a small picture of it. At most about ten minutes."
+            "The expected image of this scene is unknown, so the estimators are compared with each other, pair by pair, \
+             on a small image. Takes at most about ten minutes."
         }
     };
     ui.label(RichText::new(text).color(palette.weak));
@@ -140,13 +144,13 @@ fn explanation_ui(ui: &mut Ui, check: &SelfCheck, doc: &SceneDoc) {
         if let Some(Some(reason)) = reasons.first()
             && reasons.iter().all(Option::is_some)
         {
-            let text = format!("This scene is biased by choice: {reason}. There is nothing to compare.");
+            let text = format!("This scene is biased by choice: {reason}. No estimator can be tested.");
             callout(ui, palette.error, &text);
         }
     }
 }
 
-/// What there is to be checked, before anything is.
+/// Lists the families of cases before the check starts.
 fn families_ui(ui: &mut Ui, deep: bool) {
     let palette = Palette::get(ui);
     ui.add_space(8.0);
@@ -159,7 +163,7 @@ fn families_ui(ui: &mut Ui, deep: bool) {
     });
 }
 
-/// How far it is, or how it has ended.
+/// Shows the progress of the check, or its result.
 fn progress_ui(ui: &mut Ui, check: &SelfCheck) {
     let palette = Palette::get(ui);
     if check.is_running() {
@@ -167,7 +171,7 @@ fn progress_ui(ui: &mut Ui, check: &SelfCheck) {
         let text = if check.total > 0 {
             format!("{} of {}   {}", check.done, check.total, check.at)
         } else {
-            "Working the answers out…".into()
+            "Computing the expected values…".into()
         };
         let bar = ProgressBar::new(share).text(RichText::new(text).small()).desired_height(20.0);
         ui.add(bar).accessible_name("Progress of the check");
@@ -192,7 +196,7 @@ fn progress_ui(ui: &mut Ui, check: &SelfCheck) {
             (format!("{}, in {seconds:.0} s.", tally()), palette.good)
         }
         Some(Ending::Finished(seconds)) => (format!("{}, in {seconds:.0} s.", tally()), palette.error),
-        Some(Ending::Cancelled) => (format!("Cancelled. So far {}.", tally()), palette.warning),
+        Some(Ending::Cancelled) => (format!("Cancelled: {} so far.", tally()), palette.warning),
         Some(Ending::Failed(message)) => return callout(ui, palette.error, message),
     };
     ui.label(RichText::new(text).color(colour));

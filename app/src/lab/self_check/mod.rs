@@ -1,7 +1,6 @@
-//! *Help ▸ Self-check*: the check that the command line makes, in the window.
+//! *Help ▸ Self-check*: the check of `majorant check`, in the window.
 //!
-//! `mod.rs` is its state: what is asked, the thread that works on it, what has come of it so far.
-//! `dialog.rs` draws it, `table.rs` its table.
+//! `mod.rs` contains its state, worker thread and results, `dialog.rs` the dialog, and `table.rs` the table.
 
 mod dialog;
 mod table;
@@ -14,34 +13,34 @@ use majorant_core::check::{self, Case, Check, CheckError, Effort, Row, Verdict};
 use majorant_core::io::Library;
 use majorant_core::scene::SceneDoc;
 
-/// What is checked.
+/// Subject of a check.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Subject {
-    /// The cases that are part of the program.
+    /// The built-in cases.
     #[default]
     BuiltIn,
-    /// The scene as it is edited.
+    /// The scene that is being edited.
     ThisScene,
 }
 
-/// How the last check ended.
+/// End of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Ending {
-    /// With all its rows, after some seconds.
+    /// Completed, after this many seconds.
     Finished(f64),
-    /// By the user.
+    /// Cancelled by the user.
     Cancelled,
-    /// With an error.
+    /// Failed with this error message.
     Failed(String),
 }
 
-/// What to check: the user's scene with its name, or the built-in cases; `deep` for the long version.
+/// Subject of a check: the user's scene with its name, or the built-in cases; `deep` for the long version.
 struct Order {
     own: Option<(String, SceneDoc)>,
     deep: bool,
 }
 
-/// What the worker reports.
+/// Report of the worker.
 enum News {
     At { done: usize, total: usize, what: String },
     Rows(Vec<Row>),
@@ -49,12 +48,12 @@ enum News {
     Ended(Ending),
 }
 
-/// The self-check of the window.
+/// State of the self-check dialog.
 pub struct SelfCheck {
-    /// Whether it is shown.
+    /// Whether the dialog is shown.
     pub open: bool,
     subject: Subject,
-    /// The scene that the rows are about, if it is one's own.
+    /// Scene of the rows, if the user's scene was checked.
     of: Option<SceneDoc>,
     deep: bool,
     only_failures: bool,
@@ -87,25 +86,25 @@ impl Default for SelfCheck {
 }
 
 impl SelfCheck {
-    /// The lines of the table so far.
+    /// Rows of the table so far.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
 
-    /// How the last check ended, once it has.
+    /// End of the last check, once it has ended.
     #[must_use]
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }
 
-    /// Whether a check runs.
+    /// Whether a check is running.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.worker.is_running()
     }
 
-    /// Starts over; `wake` is called whenever there is news.
+    /// Starts a new check; `wake` is called after every report of the worker.
     pub fn start(&mut self, name: &str, doc: &SceneDoc, wake: impl Fn() + Send + Sync + 'static) {
         self.clear();
         let own = (self.subject == Subject::ThisScene).then(|| (name.to_owned(), doc.clone()));
@@ -116,7 +115,8 @@ impl SelfCheck {
         }
     }
 
-    /// Shows it beside a scene: what was found of another, or of this one before an edit, is forgotten.
+    /// Opens the dialog for a scene; results for a different scene, or for this one before an edit, are
+    /// discarded.
     pub fn show(&mut self, doc: &SceneDoc) {
         self.open = true;
         if self.of.as_ref().is_some_and(|of| work_after(of, doc) == Work::Render) {
@@ -124,7 +124,7 @@ impl SelfCheck {
         }
     }
 
-    /// Ends the check that runs; its rows stay.
+    /// Cancels a running check and keeps its rows.
     pub fn cancel(&mut self) {
         if self.worker.is_running() {
             self.worker.cancel();
@@ -132,7 +132,7 @@ impl SelfCheck {
         }
     }
 
-    /// Forgets the last check: its rows would be read as those of what is chosen now.
+    /// Discards the last check, whose rows would be taken for those of the current choice.
     fn clear(&mut self) {
         self.cancel();
         (self.done, self.total) = (0, 0);
@@ -142,7 +142,7 @@ impl SelfCheck {
         (self.of, self.ending) = (None, None);
     }
 
-    /// Takes over what the worker has reported since the last call.
+    /// Takes over the reports of the worker since the last call.
     pub fn poll(&mut self) {
         for news in self.worker.poll() {
             match news {
@@ -153,11 +153,12 @@ impl SelfCheck {
             }
         }
         if self.worker.has_failed() && self.ending.is_none() {
-            self.ending = Some(Ending::Failed("it stopped on an internal error; run it again".into()));
+            self.ending =
+                Some(Ending::Failed("the check stopped with an internal error; run it again".into()));
         }
     }
 
-    /// Rows in all, that agree, and that differ or are not finite.
+    /// Number of all rows, of those that agree, and of those that differ or are not finite.
     fn counts(&self) -> (usize, usize, usize) {
         let agree = self.rows.iter().filter(|row| row.verdict == Verdict::Agrees).count();
         let wrong = self.rows.iter().filter(|row| !row.passes()).count();
@@ -231,7 +232,7 @@ mod tests {
             std::thread::sleep(Duration::from_millis(2));
             check.poll();
         }
-        check.ending().expect("it has ended")
+        check.ending().expect("the check has ended")
     }
 
     fn scene(toml: &str) -> SceneDoc {
@@ -239,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_of_ones_own_ends_in_rows() {
+    fn a_user_scene_ends_in_rows() {
         let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
         let doc = scene(
             "majorant = 1\nmedium = { extinction = 1.0 }\nlights = [{ kind = \"environment\" }]\n\
@@ -258,7 +259,7 @@ mod tests {
         let mut check = SelfCheck { subject: Subject::ThisScene, ..SelfCheck::default() };
         let doc = scene("majorant = 1\n[medium]\ndensity = { kind = \"grid\", file = \"/none.vdb\" }");
         check.start("mine", &doc, || {});
-        let Ending::Failed(message) = finished(&mut check) else { panic!("it should have failed") };
+        let Ending::Failed(message) = finished(&mut check) else { panic!("the check should have failed") };
         assert!(message.contains("none.vdb"), "{message}");
     }
 

@@ -1,4 +1,4 @@
-//! The table of scene × estimator.
+//! Table of scenes × estimators.
 
 use crate::theme::Palette;
 use egui::{Align, Label, Layout, RichText, TextWrapMode, Ui};
@@ -7,30 +7,30 @@ use majorant_core::check::{Row, Verdict};
 use majorant_core::scene::Mode;
 
 const ROW_HEIGHT: f32 = 21.0;
-/// Narrower than this the verdict has no room.
+/// Minimum width, in points, that leaves room for the verdict.
 pub(super) const TABLE_WIDTH: f32 = 920.0;
 
-/// Headings, with what the numbers mean.
+/// Column headings with tooltips.
 const HEADINGS: [(&str, &str); 8] = [
-    ("Scene", "The case. Its family's file has the derivation of the answer."),
-    ("Estimator", "Every estimator that is unbiased for the scene is held against the answer."),
-    ("Mode", "Spectral: wavelengths. RGB: three fixed components."),
-    ("Measured", "The image's mean over pixels and channels, and its standard error."),
-    ("Expected", "What it should be. Where nobody knows: the mean of the other estimators."),
-    ("z", "Measured minus expected, in standard errors of the difference. Within ±2, 19 times of 20."),
+    ("Scene", "The case. The source file of its family contains the derivation of the expected value."),
+    ("Estimator", "Every estimator that is unbiased for the scene is compared with the expected value."),
+    ("Mode", "Spectral: sampled wavelengths. RGB: three fixed components."),
+    ("Measured", "Image mean over pixels and channels, and its standard error."),
+    ("Expected", "Expected image mean. If it is unknown: the mean of the other estimators."),
+    ("z", "Measured minus expected, in standard errors of the difference. Within ±2 in 19 of 20 cases."),
     (
         "Worst |z|",
-        "The largest |z| of any block of pixels and channel, and what chance exceeds anywhere in the \
-         whole table once in a thousand tables.",
+        "The largest |z| of any block of pixels and channel, and the value that chance exceeds anywhere in the \
+         table once in a thousand tables.",
     ),
-    ("Sees", "A bias of the image's mean of this size would have been found with 95 % probability."),
+    ("Detects", "Smallest bias of the image mean that is detected with 95 % probability."),
 ];
 
 pub(super) fn mode(row: &Row) -> &'static str {
     if row.mode == Mode::Rgb { "RGB" } else { "spectral" }
 }
 
-/// Shows rows, what is wrong first.
+/// Shows rows, failures first.
 pub(super) fn table_ui(ui: &mut Ui, rows: &[Row], only_failures: bool) {
     let mut shown: Vec<&Row> = rows.iter().filter(|row| !(only_failures && row.passes())).collect();
     shown.sort_by_key(|row| row.passes());
@@ -112,7 +112,7 @@ fn row_ui(line: &mut TableRow<'_, '_>, row: &Row) {
     });
 }
 
-/// Enough digits to compare by, whatever the magnitude.
+/// Formats a value with about four significant digits.
 fn four_digits(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude >= 100.0 {

@@ -1,4 +1,4 @@
-//! The axes of an estimate: choices that any estimator combines with, but for those it has no use for.
+//! Axes of an estimate: settings that estimators share, except those that an estimator does not use.
 
 use crate::widgets::{hint, key, optional_key, row_of, segmented};
 use egui::{RichText, Ui};
@@ -11,7 +11,7 @@ use majorant_core::scene::{
 use majorant_core::spectrum::WavelengthSampling;
 use majorant_core::transmittance::TransmittanceKind;
 
-/// All of them.
+/// Shows all axes.
 pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     components_ui(ui, doc);
     open_ui(ui, doc, Axis::Absorption, absorption_ui);
@@ -24,20 +24,20 @@ pub(super) fn ui(ui: &mut Ui, doc: &mut EstimatorDoc, opened: &EstimatorDoc) {
     path_length_ui(ui, doc, opened);
 }
 
-/// A choice as it is, or greyed out with the reason where the estimator does not have it.
+/// Shows a setting, disabled with the reason if the estimator does not use it.
 fn open_ui(ui: &mut Ui, doc: &mut EstimatorDoc, axis: Axis, choice: impl FnOnce(&mut Ui, &mut EstimatorDoc)) {
     let entry = estimator::find(&doc.id);
     let why = entry.and_then(|entry| entry.unused(axis));
     let scope = ui.add_enabled_ui(why.is_none(), |ui| choice(ui, doc));
     if let (Some(why), Some(entry)) = (why, entry) {
-        scope.response.on_hover_text(format!("Nothing to choose under {}: {why}.", entry.name));
+        scope.response.on_hover_text(format!("Not available for {}: {why}.", entry.name));
     }
 }
 
 fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.mode"), |ui, _| {
         let options = [
-            (Mode::Spectral, "Spectral", "Wavelengths from 360 to 830 nm, seen by the CIE 1931 observer"),
+            (Mode::Spectral, "Spectral", "Wavelengths from 360 to 830 nm, with the CIE 1931 observer"),
             (Mode::Rgb, "RGB", "Three fixed components: red, green, blue"),
         ];
         segmented(ui, "Components", &mut doc.mode, &options);
@@ -48,9 +48,9 @@ fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 (
                     WavelengthSampling::Sensor,
                     "By sensor",
-                    "Often where the sensor responds: less colour noise",
+                    "In proportion to the sensor's response: less colour noise",
                 ),
-                (WavelengthSampling::Uniform, "Uniform", "Evenly from 360 to 830 nm, as in the report"),
+                (WavelengthSampling::Uniform, "Uniform", "Uniform from 360 to 830 nm, as in the report"),
             ];
             segmented(ui, "Wavelengths", &mut doc.wavelengths, &options);
         });
@@ -60,19 +60,23 @@ fn components_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.absorption"), |ui, _| {
         let options = [
-            (Absorption::Weighted, "Weighted", "Never drawn; scattering carries the albedo as a weight"),
-            (Absorption::Analogue, "Analogue", "An event that ends the path, as in Miller et al. 2019"),
-            (Absorption::Roulette, "Roulette", "Weighted, and ended by roulette after light was connected"),
+            (Absorption::Weighted, "Weighted", "No absorption events; scattering is weighted by the albedo"),
+            (Absorption::Analogue, "Analogue", "An event that terminates the path, as in Miller et al. 2019"),
+            (Absorption::Roulette, "Roulette", "Weighted, with Russian roulette after each connection"),
         ];
         segmented(ui, "Absorption", &mut doc.absorption, &options);
     });
     hint(
         ui,
         match doc.absorption {
-            Absorption::Weighted => "Each scattering multiplies the path by the albedo: P(real) = σt / μ.",
-            Absorption::Analogue => "A path ends with P(absorb) = σa / μ and otherwise keeps its weight.",
+            Absorption::Weighted => {
+                "Each scattering event multiplies the throughput by the albedo: P(real) = σt / μ."
+            }
+            Absorption::Analogue => {
+                "A path terminates with P(absorb) = σa / μ and otherwise keeps its throughput."
+            }
             Absorption::Roulette => {
-                "A path goes on with P = albedo, decided after light was connected: the report's cost, less noise."
+                "A path survives with P = albedo, decided after each connection: the cost of the report with less noise."
             }
         },
     );
@@ -81,16 +85,16 @@ fn absorption_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 fn distances_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.distances"), |ui, _| {
         let options = [
-            (DistanceSampling::Delta, "Delta", "Real with P = σt / μ: the fewest weights"),
+            (DistanceSampling::Delta, "Delta", "Real with P = σt / μ: no additional weights"),
             (
                 DistanceSampling::WeightedDelta,
                 "Weighted",
-                "Real with P = √(σt / μ): fewer look-ups per event, weights that vary",
+                "Real with P = √(σt / μ): fewer look-ups per event, but varying weights",
             ),
             (
                 DistanceSampling::Decomposition,
                 "Split",
-                "Decomposition: collisions with the local minimum are real and cost no look-up",
+                "Decomposition tracking: collisions with the local minimum are real and need no look-up",
             ),
         ];
         segmented(ui, "Distances", &mut doc.distances, &options);
@@ -100,19 +104,23 @@ fn distances_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.lights"), |ui, _| {
         let options = [
-            (LightSelection::Uniform, "Uniform", "Any, with the same probability"),
-            (LightSelection::Power, "Power", "In proportion to what each emits"),
-            (LightSelection::Contribution, "Nearby", "In proportion to what would arrive from each"),
+            (LightSelection::Uniform, "Uniform", "All with the same probability"),
+            (LightSelection::Power, "Power", "In proportion to the emitted power"),
+            (
+                LightSelection::Contribution,
+                "Nearby",
+                "In proportion to the unoccluded illuminance at the point",
+            ),
         ];
         segmented(ui, "Lights", &mut doc.lights, &options);
     });
     row_of(ui, key("estimator.light_sampling"), |ui, _| {
         let options = [
-            (LightSampling::Emitter, "Light", "Anywhere, evenly: as in the papers"),
+            (LightSampling::Emitter, "Light", "Uniform over the light, as in the papers"),
             (
                 LightSampling::Product,
                 "Product",
-                "Where the phase function scatters to: wins beside large lights, for sharply forward scattering",
+                "Product of phase function and light: best near large lights with strong forward scattering",
             ),
         ];
         segmented(ui, "Aim", &mut doc.light_sampling, &options);
@@ -122,14 +130,14 @@ fn lights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
 fn light_walk_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.light_walk"), |ui, _| {
         let options = [
-            (LightWalk::Fused, "Fused", "The one that goes on to the next vertex"),
-            (LightWalk::Separate, "Separate", "One of its own along the same ray, as the report prints it"),
+            (LightWalk::Fused, "Fused", "The walk that continues to the next vertex"),
+            (LightWalk::Separate, "Separate", "A separate walk along the same ray, as in the report"),
         ];
         segmented(ui, "Light walk", &mut doc.light_walk, &options);
     });
 }
 
-/// How connections estimate transmittance, from the registry.
+/// Shows the transmittance estimators of the registry.
 fn transmittance_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     let chosen = TransmittanceKind::find(&doc.transmittance).map(|kind| kind.entry());
     row_of(ui, key("estimator.transmittance"), |ui, _| {
@@ -148,20 +156,22 @@ fn transmittance_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
         combo.response.accessible_name("Transmittance");
     });
     if chosen.is_some_and(|entry| !entry.unbiased) {
-        hint(ui, "Biased: the step is never small enough.");
+        hint(ui, "Biased for every step size.");
     }
 }
 
-/// How the ways in which a path could have been made share it.
+/// Shows the combination of components and techniques.
 fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     const BALANCE: (Heuristic, &str, &str) =
-        (Heuristic::Balance, "Balance", "In proportion to the densities");
-    const POWER: (Heuristic, &str, &str) = (Heuristic::Power, "Power", "In proportion to their squares");
-    const MAXIMUM: (Heuristic, &str, &str) = (Heuristic::Maximum, "Max", "All to the largest density");
+        (Heuristic::Balance, "Balance", "Balance heuristic: in proportion to the densities");
+    const POWER: (Heuristic, &str, &str) =
+        (Heuristic::Power, "Power", "Power heuristic: in proportion to the squared densities");
+    const MAXIMUM: (Heuristic, &str, &str) =
+        (Heuristic::Maximum, "Max", "Maximum heuristic: only the largest density");
     egui::CollapsingHeader::new(RichText::new("Combination").small()).show_unindented(ui, |ui| {
         open_ui(ui, doc, Axis::Components, |ui, doc| {
             row_of(ui, key("estimator.heuristics.components"), |ui, _| {
-                let none = (Heuristic::HeroOnly, "None", "Only the hero is used: colour noise returns");
+                let none = (Heuristic::HeroOnly, "None", "Uses only the hero wavelength: more colour noise");
                 let options = [BALANCE, POWER, MAXIMUM, none];
                 segmented(ui, "Heroes", &mut doc.heuristics.components, &options);
             });
@@ -177,7 +187,11 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 let options = [
                     (Tracking::Maximum, "Max", "The largest coefficient over components"),
                     (Tracking::Average, "Average", "Their average"),
-                    (Tracking::History, "History", "Their average by what the path is worth at each"),
+                    (
+                        Tracking::History,
+                        "History",
+                        "Their average, weighted by the path throughput of each component",
+                    ),
                 ];
                 segmented(ui, "Tracking", &mut doc.tracking, &options);
             });
@@ -185,61 +199,61 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     });
 }
 
-/// How random decisions are spread, and where directions come from: the same mean, another variance.
+/// Shows sampler and directions, which change the variance but not the mean.
 fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.sampler"), |ui, _| {
         let options = [
-            (SamplerKind::Independent, "Random", "Not at all: error bars are exact"),
+            (SamplerKind::Independent, "Random", "Independent random numbers: error bars are exact"),
             (
                 SamplerKind::Lattice,
                 "Lattice",
-                "Spread evenly over the first decisions of a path: least noise",
+                "Randomly shifted lattice for the first dimensions of a path: least noise",
             ),
-            (SamplerKind::Sobol, "Sobol", "Owen-scrambled Sobol points for the first decisions of a path"),
+            (SamplerKind::Sobol, "Sobol", "Owen-scrambled Sobol points for the first dimensions of a path"),
         ];
         segmented(ui, "Samples", &mut doc.sampler, &options);
     });
     row_of(ui, key("estimator.directions"), |ui, _| {
         let options = [
-            (DirectionSampling::Phase, "Phase", "The phase function, as in the papers"),
+            (DirectionSampling::Phase, "Phase", "Phase function sampling, as in the papers"),
             (
                 DirectionSampling::TowardsLights,
                 "Guided",
-                "Also from broad lobes towards the lights: wins for light from the side through forward scattering",
+                "Mixed with broad lobes towards the lights: best for side light with forward scattering",
             ),
             (
                 DirectionSampling::Product,
                 "Product",
-                "Also from the part of the phase function that can meet the lights: wins beside lights in view",
+                "Mixed with the product of phase function and lights: best near lights in view",
             ),
         ];
         segmented(ui, "Directions", &mut doc.directions, &options);
     });
     if doc.sampler != SamplerKind::Independent {
-        hint(ui, "Error bars overstate the error: samples that are spread evenly hang together.");
+        hint(ui, "Error bars overstate the error, because well-distributed samples are correlated.");
     }
 }
 
 fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.bookkeeping"), |ui, _| {
         let options = [
-            (Bookkeeping::Rescaled, "p/P", "Quotients by the density that made the path: no overflow"),
+            (Bookkeeping::Rescaled, "p/P", "Densities relative to the density of the path: no overflow"),
             (
                 Bookkeeping::ApartF32,
                 "f32",
-                "f and p apart, as the report prints them: overflow in dense media",
+                "f and p stored separately, as in the report: overflows in dense media",
             ),
-            (Bookkeeping::ApartF64, "f64", "f and p apart in double precision: overflow later"),
-            (Bookkeeping::Pairwise, "p/f", "Miller's quotients of all pairs: the balance heuristic only"),
+            (Bookkeeping::ApartF64, "f64", "f and p stored separately in double precision: overflows later"),
+            (Bookkeeping::Pairwise, "p/f", "Pairwise quotients of Miller et al.: balance heuristic only"),
         ];
         segmented(ui, "Weights", &mut doc.bookkeeping, &options);
     });
     let overflows = doc.bookkeeping == Bookkeeping::ApartF32;
     let balanced = doc.heuristics == Heuristics::default();
     if overflows {
-        hint(ui, "Samples that overflow are counted, located and left out: the mean is then wrong.");
+        hint(ui, "Samples that overflow are counted, located and excluded, which biases the mean.");
     } else if doc.bookkeeping == Bookkeeping::Pairwise && !balanced {
-        hint(ui, "Of quotients of pairs only the balance heuristic can be formed.");
+        hint(ui, "Pairwise weights support the balance heuristic only.");
     }
 }
 

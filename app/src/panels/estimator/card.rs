@@ -1,14 +1,14 @@
-//! One estimator as a card.
+//! Card of one estimator.
 
 use crate::theme::Palette;
 use egui::{Color32, CornerRadius, Frame, Label, Margin, RichText, Role, Sense, Stroke, Ui, WidgetInfo};
 use majorant_core::estimator::Entry;
 
-/// Shows it; returns whether it was chosen.
+/// Shows the card; returns whether it was chosen.
 pub(super) fn ui(ui: &mut Ui, entry: &Entry, selected: bool) -> bool {
     let palette = Palette::get(ui);
     let id = ui.make_persistent_id(entry.id);
-    // Colours of this frame come from the pointer's place in the last one.
+    // The colours of this frame follow the hover state of the last one.
     let hovered = ui.read_response(id).is_some_and(|r| r.hovered() || r.has_focus());
     let fill = match (selected, hovered) {
         (true, _) => palette.accent_fill.gamma_multiply(0.55),

@@ -1,4 +1,4 @@
-//! How light transport is estimated: the registry as one-click choices, and what they share.
+//! Choice of the estimator from the registry, and the axes of all estimators.
 
 mod axes;
 mod card;
@@ -9,7 +9,7 @@ use crate::widgets::{callout, hint};
 use egui::{Color32, Ui};
 use majorant_core::estimator::{self, REGISTRY};
 
-/// See the [module](self).
+/// Panel of the estimator.
 pub struct Estimator;
 
 impl Panel for Estimator {
@@ -36,7 +36,7 @@ impl Panel for Estimator {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let doc = &mut cx.draft.estimator;
         if estimator::find(&doc.id).is_none() {
-            let text = format!("The scene asks for `{}`, which does not exist. Choose one of these.", doc.id);
+            let text = format!("The scene uses the unknown estimator `{}`. Choose one of these.", doc.id);
             callout(ui, Palette::get(ui).error, &text);
         }
         for entry in REGISTRY {
@@ -44,7 +44,7 @@ impl Panel for Estimator {
                 entry.id.clone_into(&mut doc.id);
             }
         }
-        // Below the cards, which stay where they are: one may click back and forth to compare.
+        // Below the cards, so that their positions do not depend on the choice.
         if let Some(entry) = estimator::find(&doc.id) {
             hint(ui, entry.reference);
         }

@@ -1,4 +1,4 @@
-//! Error against samples, seconds or look-ups.
+//! Error curves: error against samples, CPU seconds or look-ups.
 
 use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
@@ -11,7 +11,7 @@ use majorant_core::compare::label;
 use majorant_core::scene::ReferenceDoc;
 use std::fmt::Write;
 
-/// See the [module](self).
+/// Tab of the error curves.
 pub struct Curves;
 
 impl Tab for Curves {
@@ -47,13 +47,11 @@ impl Tab for Curves {
             .collect();
         let Some(measure) = analysis.measure.filter(|_| !curves.is_empty()) else {
             let text = match cx.doc.compare.reference {
-                ReferenceDoc::None => {
-                    "Errors need something to be measured against: choose a reference above."
-                }
+                ReferenceDoc::None => "Errors need a reference: choose one above.",
                 ReferenceDoc::Pooled => {
-                    "No error is known yet: the other unbiased views are too noisy, or there is none."
+                    "No errors yet: the other unbiased views are too noisy, or there is none."
                 }
-                _ => "The reference has no picture yet.",
+                _ => "The reference has no image yet.",
             };
             return empty(ui, text);
         };
@@ -66,7 +64,8 @@ impl Tab for Curves {
                     axis = option;
                 }
             }
-            let note = "Bands: 95 % from the scatter over pixels. Dashed: the slope of unbiased estimates.";
+            let note =
+                "Bands: 95 % confidence from the scatter over pixels. Dashed: slope of unbiased estimates.";
             ui.label(RichText::new(note).small().color(Palette::get(ui).weak));
         });
         ui.data_mut(|d| d.insert_temp(id, axis));
@@ -105,7 +104,7 @@ impl Tab for Curves {
     }
 }
 
-/// A line of the slope that unbiased estimates have, through the end of the first curve.
+/// Line with the slope of unbiased estimates, through the end of the first curve.
 fn guide(curves: &[(usize, Vec<Point>)], axis: Axis, slope: f64) -> Option<Vec<PlotPoint>> {
     let all = || curves.iter().flat_map(|(_, points)| points).map(|p| p.at(axis).log10());
     let (from, to) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));

@@ -1,4 +1,4 @@
-//! Numbers below the pictures. A file and a line in [`TABS`] add a tab.
+//! Tabs of statistics below the images. A tab is a file and a line in [`TABS`].
 
 mod curves;
 mod noise;
@@ -17,33 +17,33 @@ use crate::theme::{Palette, UNIT};
 use egui::{Align, Button, ComboBox, Frame, Label, Layout, Margin, RichText, Ui};
 use majorant_core::scene::SceneDoc;
 
-/// What a tab sees.
+/// Context of a tab.
 pub struct Cx<'a> {
-    /// The wall.
+    /// Views, images and statistics.
     pub wall: &'a Wall,
     /// The document.
     pub doc: &'a SceneDoc,
-    /// What tabs hold from frame to frame.
+    /// State of the tabs that persists between frames.
     pub inspector: &'a mut Inspector,
-    /// What it asks for.
+    /// Commands issued by the tab.
     pub commands: &'a mut Vec<Command>,
 }
 
-/// Numbers of one kind.
+/// A tab of the dock.
 pub trait Tab: Sync {
-    /// A stable id.
+    /// Stable id.
     fn id(&self) -> &'static str;
-    /// Its heading.
+    /// Title.
     fn title(&self) -> &'static str;
-    /// Its content.
+    /// Draws the content.
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>);
-    /// The same as text, for a spreadsheet; none if there is nothing yet. Asked for on a click only.
+    /// Content as CSV, computed on request; `None` without data.
     fn csv(&self, cx: &mut Cx<'_>) -> Option<String>;
-    /// The share of the height that it would have, if nobody has chosen another.
+    /// Default height, as a fraction of the height of images and dock.
     fn share(&self) -> f32 {
         0.37
     }
-    /// Whether it says something about a single view; the others compare.
+    /// Whether the tab applies to a single view; the others need several.
     fn for_one_view(&self) -> bool {
         false
     }
@@ -61,13 +61,13 @@ pub const TABS: &[&dyn Tab] = &[
     &noise::Noise,
 ];
 
-/// The share of the height that the tab with this id would have.
+/// Default height of the tab with an id, as a fraction of the height of images and dock.
 #[must_use]
 pub fn share(chosen: &str) -> f32 {
     TABS.iter().find(|tab| tab.id() == chosen).map_or(0.37, |tab| tab.share())
 }
 
-/// Draws the dock; `chosen` is the id of its tab.
+/// Draws the dock; `chosen` is the id of the current tab.
 pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
     let palette = Palette::get(ui);
     let several = cx.doc.view_count() > 1;
@@ -88,7 +88,7 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
             if ui.available_width() < 72.0 * offered.len() as f32 {
                 let list = ComboBox::from_id_salt("tabs").selected_text(RichText::new(tab.title()).small());
                 let list = list.show_ui(ui, |ui| offered.iter().for_each(|t| choose(ui, cx, **t)));
-                list.response.accessible_name("Numbers of this kind");
+                list.response.accessible_name("Tab of numbers");
             } else {
                 offered.iter().for_each(|t| choose(ui, cx, **t));
             }
@@ -113,7 +113,7 @@ pub fn dock_ui(ui: &mut Ui, chosen: &str, cx: &mut Cx<'_>) {
     Frame::NONE.inner_margin(Margin::same(6)).show(ui, |ui| tab.ui(ui, cx));
 }
 
-/// "A and B agree (p = .43)".
+/// Verdict on a pair of views, such as "A and B agree (p = .43)", with its colour.
 fn pair_verdict(
     cx: &Cx<'_>,
     found: &majorant_core::compare::Agreement,
@@ -133,7 +133,7 @@ fn pair_verdict(
     }
 }
 
-/// What to do so that there is something to see.
+/// Draws the explanation of an empty tab.
 fn empty(ui: &mut Ui, text: &str) {
     ui.add_space(12.0);
     ui.vertical_centered(|ui| ui.label(RichText::new(text).color(Palette::get(ui).weak)));

@@ -1,5 +1,5 @@
-//! Why the selected view is noisy: who makes the variance, which samples weigh most, and changes that a click renders
-//! beside it.
+//! Analysis of the noise of the selected view: shares of the variance, samples with the largest contributions, and
+//! suggested changes that can be rendered in another view.
 
 use super::{Cx, Tab, empty};
 use crate::model::Command;
@@ -13,12 +13,12 @@ use majorant_core::scene::SceneDoc;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// See the [module](self).
+/// Tab of the noise analysis.
 pub struct Noise;
 
-/// Parts of a split that are listed.
+/// Number of contributions listed per decomposition.
 const LISTED: usize = 6;
-/// Of how many samples the heaviest are asked for their share.
+/// Fractions of the samples, those with the largest contributions first, whose share of the variance is shown.
 const FRACTIONS: [(&str, f64); 3] = [("1 in 1000", 1e-3), ("1 in 100", 1e-2), ("1 in 10", 1e-1)];
 
 impl Tab for Noise {
@@ -61,9 +61,9 @@ impl Tab for Noise {
         let Some(evidence) = evidence(cx, Some(ui.ctx().clone())) else {
             let built = cx.wall.selected_slot().is_some_and(|slot| slot.probe().is_some());
             let text = if !built || cx.inspector.noise.is_running() {
-                "Samples are being taken apart: by technique, order, null collisions and hero."
+                "Samples are being analysed by technique, order, null collisions and hero wavelength."
             } else {
-                "No noise was found here."
+                "No noise was found."
             };
             return empty(ui, text);
         };
@@ -95,7 +95,8 @@ impl Tab for Noise {
     }
 }
 
-/// What was measured of the view, in the box if there is one; anew if `wake` is given and anything has changed.
+/// Statistics of the view's noise, restricted to the box if there is one. They are recomputed if their inputs have
+/// changed and `wake` is given.
 fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence>> {
     let slot = cx.wall.selected_slot()?;
     let probe = slot.probe()?.clone();
@@ -118,7 +119,7 @@ fn inside(region: Option<[u32; 4]>, x: usize, y: usize) -> bool {
     })
 }
 
-/// The share of the variance that is perpendicular to grey.
+/// Share of the variance that is perpendicular to grey.
 fn chroma_share(snapshot: &Snapshot, region: Option<[u32; 4]>) -> Option<f64> {
     let (mut chroma, mut all) = (0.0, 0.0);
     for (i, (noise, error)) in snapshot.noise.iter().zip(&snapshot.standard_error).enumerate() {
@@ -152,29 +153,29 @@ fn share_ui(ui: &mut Ui, name: &str, share: f64) {
         ui.painter().rect_filled(rect, 2.0, palette.well);
         let mut bar = rect;
         bar.set_width(rect.width() * (share.abs().min(1.0) as f32));
-        // Below zero it takes noise away.
+        // A negative share reduces the variance of the sum.
         let colour = if share < 0.0 { palette.weak } else { view_colour(0) };
         ui.painter().rect_filled(bar, 2.0, colour);
         ui.label(RichText::new(format!("{:.0} %", 100.0 * share)).small().monospace().color(palette.text));
     });
 }
 
-/// What the heaviest samples hold together, and each of them, to be replayed.
+/// Draws the share of the variance due to the samples with the largest contributions, and a list of these samples.
 fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
     let palette = Palette::get(ui);
-    ui.label(RichText::new("held by the heaviest samples").small().color(palette.strong));
+    ui.label(RichText::new("share of the largest samples").small().color(palette.strong));
     for (name, fraction) in FRACTIONS {
         share_ui(ui, name, heaviest.held_by(fraction));
     }
     ui.add_space(UNIT);
-    ui.label(RichText::new("the heaviest, to be replayed").small().color(palette.strong));
+    ui.label(RichText::new("largest samples: click to replay").small().color(palette.strong));
     for heavy in &heaviest.named {
         let PathIndex { x, y, sample } = heavy.at;
         let name = format!("({x}, {y}) #{sample}");
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 2.0 * UNIT;
             let link = ui.link(RichText::new(&name).small().monospace());
-            let tip = "Its events, one by one: a pixel and the number of its sample";
+            let tip = "Pixel and sample index; click to show the events of its path";
             if link.on_hover_text(tip).clicked() {
                 cx.commands.push(Command::Replay([x as usize, y as usize], sample));
             }
@@ -190,10 +191,10 @@ fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
 fn advice_ui(ui: &mut Ui, cx: &mut Cx<'_>, doc: &SceneDoc, evidence: &Evidence) {
     let palette = Palette::get(ui);
     let place = if cx.doc.compare.region.is_some() { "in the box" } else { "in the whole image" };
-    ui.label(RichText::new(format!("What might help, {place}")).small().color(palette.strong));
+    ui.label(RichText::new(format!("Suggestions, {place}")).small().color(palette.strong));
     let advice = advise(doc, evidence);
     if advice.is_empty() {
-        ui.label(RichText::new("No rule has anything to say: more samples.").small().color(palette.weak));
+        ui.label(RichText::new("No suggestion applies: take more samples.").small().color(palette.weak));
     }
     for (i, advice) in advice.iter().enumerate() {
         ui.add_space(UNIT);
@@ -203,14 +204,11 @@ fn advice_ui(ui: &mut Ui, cx: &mut Cx<'_>, doc: &SceneDoc, evidence: &Evidence) 
                 Label::new(RichText::new(format!("as {}", advice.because)).small().color(palette.weak))
                     .wrap(),
             );
-            let button = ui.add(Button::new(RichText::new("Try it beside").small()));
+            let button = ui.add(Button::new(RichText::new("Try in a new view").small()));
             button.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Try advice {}", i + 1))
             });
-            if button
-                .on_hover_text("One more view with the change; the ranking says what it is worth")
-                .clicked()
-            {
+            if button.on_hover_text("Adds a view with the change; the ranking shows its speed-up").clicked() {
                 cx.commands.push(Command::TryBeside(Box::new(advice.doc.clone())));
             }
         });

@@ -1,6 +1,6 @@
-//! The selected view's image taken apart: by technique, scattering order, null collisions or hero.
+//! Contributions to the image of the selected view, by technique, scattering order, null collisions or hero.
 //!
-//! The parts are traced aside, with the first samples of every pixel; they sum to the image of those.
+//! They are traced separately with the first samples of every pixel, and sum to the image of those samples.
 
 use super::{Cx, Tab, empty};
 use crate::theme::Palette;
@@ -12,12 +12,12 @@ use majorant_core::scene::ViewDoc;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// See the [module](self).
+/// Tab of the contributions.
 pub struct Parts;
 
-/// Samples per pixel that are taken apart: enough to tell who makes the noise.
+/// Choices of samples per pixel; few suffice to find the source of the noise.
 const SPP: [u64; 4] = [4, 16, 64, 256];
-/// Seconds that each part is shown while they run one after another.
+/// Seconds for which each contribution is highlighted during playback.
 const EACH: f64 = 0.7;
 
 impl Tab for Parts {
@@ -26,7 +26,7 @@ impl Tab for Parts {
     }
 
     fn title(&self) -> &'static str {
-        "Parts"
+        "Contributions"
     }
 
     fn share(&self) -> f32 {
@@ -59,7 +59,7 @@ impl Tab for Parts {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         controls_ui(ui, cx);
         let Some((parts, current)) = parts(ui, cx) else {
-            return empty(ui, "The image is being taken apart.");
+            return empty(ui, "The contributions are being traced.");
         };
         let view = cx.doc.view_doc(cx.wall.selected()).unwrap_or_else(|| cx.doc.clone()).view;
         upload(ui, cx, &parts, &view);
@@ -71,13 +71,13 @@ impl Tab for Parts {
         };
         let shares = parts.variance_shares(inside);
         let shown = playing(ui, cx, parts.layers.len());
-        // Two lines of text and the scroll bar stand below.
+        // Two lines of text and the scroll bar are below the images.
         let height = (ui.available_height() - 3.0 * ui.text_style_height(&egui::TextStyle::Small)).max(40.0);
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 let size = vec2(height * parts.width as f32 / parts.height.max(1) as f32, height);
                 for (k, layer) in parts.layers.iter().enumerate() {
-                    // While the parts of a newer picture are traced, those of the older stay, without their numbers.
+                    // While new contributions are traced, the old images stay, without their numbers.
                     let share = shares.as_ref().filter(|_| current).map(|s| s[k]);
                     let mean = current.then(|| layer.whole().iter().sum::<f64>() / 3.0);
                     let lit = shown.is_none_or(|shown| shown == k);
@@ -112,13 +112,13 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             });
         combo.response.accessible_name("Samples per pixel");
         for (as_shares, name, tip) in [
-            (false, "light", "What each part adds, as the picture is shown"),
-            (true, "weights", "Each pixel's share of the light: by technique, what MIS weighs it with on average"),
+            (false, "radiance", "Radiance of each contribution, with the tone mapping of the view"),
+            (true, "weights", "Share of each contribution in the radiance of the pixel: by technique, its average MIS weight"),
         ] {
             let on = state.as_shares == as_shares;
             let response = ui.add(Button::selectable(on, RichText::new(name).small())).on_hover_text(tip);
             response.widget_info(|| {
-                egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("Parts as {name}"))
+                egui::WidgetInfo::selected(egui::Role::Button, true, on, format!("Contributions as {name}"))
             });
             if response.clicked() {
                 state.as_shares = as_shares;
@@ -126,27 +126,27 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         }
         let playing = state.playing.is_some();
         let text = if playing { "Stop" } else { "Play" };
-        let play = ui.add(Button::new(RichText::new(text).small())).on_hover_text("One part after another");
+        let play = ui.add(Button::new(RichText::new(text).small())).on_hover_text("Highlights one contribution after another");
         if play.clicked() {
             state.playing = (!playing).then(|| ui.input(|input| input.time));
         }
         if state.query.is_running() {
             ui.spinner();
         }
-        let text = "mean, and share of the noise";
+        let text = "mean, and share of the variance";
         ui.label(RichText::new(text).small().color(palette.weak)).on_hover_text(
-            "Cov(part, image) / Var(image) of one sample; the shares sum to one. In the box, if one is drawn. Below zero: \
-             bright where the others are dark.",
+            "Cov(contribution, image) / Var(image) of one sample, in the box if one is drawn; the shares sum to one. \
+             Negative: anticorrelated with the other contributions.",
         );
     });
 }
 
-/// The parts at hand, or those before while they are being traced.
+/// Returns the contributions and whether they are current: while new ones are traced, the previous are returned.
 fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     let slot = cx.wall.selected_slot()?;
     let state = &mut cx.inspector.parts;
     let Some(probe) = slot.probe().cloned() else {
-        // Another scene is being built; what was taken apart before is of an older one.
+        // While a scene is built, the contributions are those of an older one.
         return state.query.newest().map(|parts| (Arc::clone(parts), false));
     };
     let (split, spp) = (state.split, state.spp());
@@ -160,7 +160,7 @@ fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     )
 }
 
-/// Brings the textures in line with an answer.
+/// Updates the textures of the contributions if these, the exposure or the mode have changed.
 fn upload(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
     let state = &mut cx.inspector.parts;
     let same = state.hung_of.as_ref().is_some_and(|uploaded| Arc::ptr_eq(uploaded, parts));
@@ -176,20 +176,20 @@ fn upload(ui: &Ui, cx: &mut Cx<'_>, parts: &Arc<Strategies>, view: &ViewDoc) {
         if !as_shares {
             return display.encode(*rgb);
         }
-        // What brings no light has no share.
+        // The share of a black pixel is zero.
         let share = grey(rgb) / whole(i).max(f32::MIN_POSITIVE);
         [(share.clamp(0.0, 1.0) * 255.0) as u8; 3]
     };
     let texture = |(k, layer): (usize, &majorant_core::inspect::Layer)| {
         let bytes: Vec<u8> = layer.mean.iter().enumerate().flat_map(shown).collect();
         let image = ColorImage::from_rgb([parts.width, parts.height], &bytes);
-        ui.ctx().load_texture(format!("part {k}"), image, TextureOptions::LINEAR)
+        ui.ctx().load_texture(format!("contribution {k}"), image, TextureOptions::LINEAR)
     };
     state.uploaded = parts.layers.iter().enumerate().map(texture).collect();
     (state.hung_of, state.exposure) = (Some(Arc::clone(parts)), view.exposure_ev);
 }
 
-/// Which part is lit, while they are shown one after another.
+/// Index of the highlighted contribution during playback.
 fn playing(ui: &Ui, cx: &Cx<'_>, parts: usize) -> Option<usize> {
     let since = cx.inspector.parts.playing?;
     ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(0.5 * EACH));
@@ -209,7 +209,7 @@ fn part_ui(
     ui.vertical(|ui| {
         if let Some(texture) = texture {
             let image = Image::new((texture.id(), size)).tint(egui::Color32::from_gray(tint));
-            ui.add(image.alt_text(format!("Part: {}", layer.name)));
+            ui.add(image.alt_text(format!("Contribution: {}", layer.name)));
         }
         ui.label(RichText::new(&layer.name).small().color(palette.strong));
         let mean = mean.map_or("…".to_owned(), |mean| format!("{mean:.4}"));

@@ -1,6 +1,6 @@
-//! The samples of one pixel in every view: their histogram, and how their mean comes to rest.
+//! Samples of one pixel in every view: histogram and convergence of the mean.
 //!
-//! Samples are traced again, not stored: random numbers are a function of (seed, pixel, sample).
+//! Samples are retraced, not stored: random numbers are a function of (seed, pixel, sample).
 
 use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
@@ -11,7 +11,7 @@ use majorant_core::compare::label;
 use majorant_core::session::PixelSample;
 use std::fmt::Write;
 
-/// See the [module](self).
+/// Tab of the samples of a pixel.
 pub struct Pixel;
 
 fn grey(sample: &PixelSample) -> f64 {
@@ -51,9 +51,9 @@ impl Tab for Pixel {
             .filter(|(at, views)| Some(*at) == picked && views.iter().any(|v| !v.samples.is_empty()));
         let Some((at, views)) = found else {
             let text = if picked.is_some() {
-                "The pixel's samples are being traced again."
+                "The samples of the pixel are being retraced."
             } else {
-                "Click a pixel of a picture: its samples are traced again, exactly as the picture got them."
+                "Click a pixel of an image to retrace its samples, identical to those of the image."
             };
             return empty(ui, text);
         };
@@ -82,7 +82,7 @@ impl Tab for Pixel {
     }
 }
 
-/// Mean, its standard error, and the largest sample over the mean.
+/// Mean, standard error of the mean, and ratio of the largest sample to the mean.
 fn summary(samples: &[PixelSample]) -> (f64, f64, f64) {
     let n = samples.len() as f64;
     let mean = samples.iter().map(grey).sum::<f64>() / n;
@@ -91,10 +91,10 @@ fn summary(samples: &[PixelSample]) -> (f64, f64, f64) {
     (mean, (variance / n).sqrt(), if mean > 0.0 { largest / mean } else { 0.0 })
 }
 
-/// Bins per decade.
+/// Histogram bins per decade.
 const PER_DECADE: f64 = 5.0;
 
-/// Shares of samples by their size, both by decades: a heavy tail shows as a slow slope to the right.
+/// Draws a histogram of the samples, both axes logarithmic: a heavy tail decays slowly to the right.
 fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analysis::PixelSamples]) {
     plot("histogram", ui, ("sample (grey)", "share"), (true, true)).legend(legend()).show(ui, |plot| {
         for view in views {
@@ -121,7 +121,7 @@ fn histogram_ui(ui: &mut Ui, views: &[crate::wall::analysis::PixelSamples]) {
     });
 }
 
-/// Running means with their standard errors.
+/// Draws the running means with their standard errors.
 fn history_ui(ui: &mut Ui, views: &[crate::wall::analysis::PixelSamples]) {
     plot("history", ui, ("samples", "mean ± SE"), (true, false)).legend(legend()).show(ui, |plot| {
         for view in views {

@@ -1,4 +1,4 @@
-//! What plots of this room share.
+//! Plots and legends common to the tabs.
 
 use crate::theme::Palette;
 use crate::wall::caption::digits;
@@ -6,14 +6,14 @@ use egui::{Color32, RichText, Sense, Ui, vec2};
 use egui_plot::{GridMark, Legend, Plot, log_grid_spacer};
 use std::ops::RangeInclusive;
 
-/// A plot that fills the room; `log` says which axes hold logarithms to base 10.
+/// Creates a plot that fills the available height; `log` flags the axes whose values are base-10 logarithms.
 pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)) -> Plot<'a> {
     let format = |log: bool| {
         move |mark: GridMark, _: &RangeInclusive<f64>| {
             if !log {
                 return digits(mark.value);
             }
-            // Only whole decades are named.
+            // Only whole decades are labelled.
             let decade = mark.value.round();
             if (mark.value - decade).abs() > 1e-6 { String::new() } else { power_of_ten(decade as i32) }
         }
@@ -34,12 +34,12 @@ pub(super) fn plot<'a>(id: &str, ui: &Ui, names: (&str, &str), log: (bool, bool)
     plot
 }
 
-/// A legend over the plot.
+/// Legend inside a plot.
 pub(super) fn legend() -> Legend {
     Legend::default().text_style(egui::TextStyle::Small).background_alpha(0.6)
 }
 
-/// A legend above a small plot, in a line: what is drawn, in which colour.
+/// Draws a one-line legend above a small plot: names and colours of the curves.
 pub(super) fn key_ui(ui: &mut Ui, names: &[(&str, Color32)]) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -52,7 +52,7 @@ pub(super) fn key_ui(ui: &mut Ui, names: &[(&str, Color32)]) {
     });
 }
 
-/// `0.01`, `100`, or `1e-5`.
+/// Formats a power of ten as `0.01`, `100` or `1e-5`.
 fn power_of_ten(exponent: i32) -> String {
     match exponent {
         -3..=4 => format!("{}", 10f64.powi(exponent)),

@@ -1,4 +1,4 @@
-//! Camera and film as edited.
+//! Editable camera and film.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraDoc {
-    /// Where it stands.
+    /// Position of the pinhole.
     pub origin: [f32; 3],
-    /// What it looks at.
+    /// Point at the centre of the image.
     pub target: [f32; 3],
-    /// Which way is up.
+    /// Up direction.
     pub up: [f32; 3],
     /// Horizontal field of view, degrees.
     pub fov_deg: f32,
@@ -22,13 +22,13 @@ impl Default for CameraDoc {
     }
 }
 
-/// The image's size in pixels.
+/// Image size in pixels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FilmDoc {
-    /// Columns.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
 }
 

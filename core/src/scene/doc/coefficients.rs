@@ -1,6 +1,6 @@
-//! Ways to give a medium's coefficients, and how one becomes another.
+//! Parametrisations of a medium's coefficients, and conversions between them.
 //!
-//! All describe density 1; the medium's scale and density multiply the extinction.
+//! All are given for density 1; the medium's scale and density multiply the extinction.
 
 use super::MediumDoc;
 use crate::medium::{diffuse_albedo, single_scattering_albedo};
@@ -9,39 +9,40 @@ use crate::spectrum::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Coefficients that are not given by extinction and albedo.
+/// Coefficients given otherwise than by extinction and albedo.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum CoefficientsDoc {
-    /// σa and σs: extinction is their sum, albedo the share of the second.
+    /// Absorption σa and scattering σs: the extinction is σa + σs, the albedo σs / (σa + σs).
     AbsorptionScattering {
         /// Absorption of density 1, per scene unit.
         absorption: SpectrumDoc,
         /// Scattering of density 1, per scene unit.
         scattering: SpectrumDoc,
     },
-    /// What a thick medium looks like: extinction is the inverse of the first, albedo the one with which a
-    /// half-space reflects the second (see [`single_scattering_albedo`]), for the mean cosine of the phase function.
+    /// Mean free path and diffuse reflectance of a thick medium. The extinction is the inverse of the mean
+    /// free path. The albedo is that of a half-space with this diffuse reflectance (see
+    /// [`single_scattering_albedo`]), for the mean cosine of the phase function.
     MeanFreePathColour {
         /// Mean free path in density 1, scene units.
         mean_free_path: SpectrumDoc,
-        /// Share of diffuse light that a half-space reflects, 0 to 1.
+        /// Diffuse reflectance of a half-space, 0 to 1.
         colour: SpectrumDoc,
     },
 }
 
-/// The ways to give coefficients.
+/// Parametrisations of the coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoefficientsKind {
-    /// `extinction` and `albedo`.
+    /// By `extinction` and `albedo`.
     ExtinctionAlbedo,
-    /// [`CoefficientsDoc::AbsorptionScattering`].
+    /// By [`CoefficientsDoc::AbsorptionScattering`].
     AbsorptionScattering,
-    /// [`CoefficientsDoc::MeanFreePathColour`].
+    /// By [`CoefficientsDoc::MeanFreePathColour`].
     MeanFreePathColour,
 }
 
-/// The mean free paths that make sense, scene units.
+/// Range of valid mean free paths, scene units.
 pub const MEAN_FREE_PATHS: [f32; 2] = [1e-6, 1e6];
 
 const SUM: Rule = |absorption, scattering| absorption + scattering;
@@ -54,7 +55,7 @@ const SHARE: Rule = |absorption, scattering| {
 };
 
 impl MediumDoc {
-    /// How its coefficients are given.
+    /// Parametrisation of the coefficients.
     #[must_use]
     pub fn coefficients_kind(&self) -> CoefficientsKind {
         match self.coefficients {
@@ -64,7 +65,7 @@ impl MediumDoc {
         }
     }
 
-    /// Extinction of density 1 and albedo, by wavelength, under a phase function of this mean cosine.
+    /// Spectra of the extinction at density 1 and of the albedo, for a phase function with this mean cosine.
     #[must_use]
     pub fn extinction_and_albedo(&self, mean_cosine: f32) -> (Spectrum, Spectrum) {
         let frozen = |doc: &SpectrumDoc| Spectrum::new(doc, Quantity::Coefficient);
@@ -81,8 +82,9 @@ impl MediumDoc {
         }
     }
 
-    /// The same medium with its coefficients given another way, to six digits: exact for constants and, in RGB mode,
-    /// for colours; for points at the points, and to some percent between them.
+    /// Converts the coefficients to another parametrisation, to six digits. The conversion is exact for
+    /// constants and, in RGB mode, for colours. Control points are exact at the points and within a few
+    /// percent between them.
     #[must_use]
     pub fn given_by(&self, kind: CoefficientsKind, mean_cosine: f32) -> Self {
         if kind == self.coefficients_kind() {
@@ -114,12 +116,12 @@ impl MediumDoc {
     }
 }
 
-/// Six digits: what is converted there and back reads as it did.
+/// Rounds to six digits, so that a value converted there and back reads the same.
 fn short(value: f32) -> f32 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// A rule of two spectra as a spectrum to be edited.
+/// Combines two spectra by a rule into an editable spectrum.
 fn combined(a: &SpectrumDoc, b: &SpectrumDoc, rule: Rule) -> SpectrumDoc {
     let colour = |doc: &SpectrumDoc| match doc {
         SpectrumDoc::Constant(value) => Some([*value; 3]),
@@ -145,10 +147,10 @@ fn combined(a: &SpectrumDoc, b: &SpectrumDoc, rule: Rule) -> SpectrumDoc {
     SpectrumDoc::Points { points: points.collect(), outside: Outside::Hold }
 }
 
-/// How often a piece between two points may be halved.
+/// Maximum number of times that an interval between two points is halved.
 const HALVINGS: u32 = 3;
 
-/// Appends wavelengths after the first up to the second, until a line between neighbours is right to a percent.
+/// Appends wavelengths in (a, b] until linear interpolation between neighbours is accurate to one percent.
 fn refine(value: &impl Fn(f32) -> f32, [a, b]: [f32; 2], halvings: u32, to: &mut Vec<f32>) {
     let middle = 0.5 * (a + b);
     let (line, curve) = (0.5 * (value(a) + value(b)), value(middle));
@@ -160,18 +162,18 @@ fn refine(value: &impl Fn(f32) -> f32, [a, b]: [f32; 2], halvings: u32, to: &mut
     }
 }
 
-/// The wavelengths at which a spectrum is looked at to make points of it.
+/// Wavelengths at which a spectrum is evaluated to convert it to control points.
 fn knots(doc: &SpectrumDoc) -> Vec<f32> {
     match (doc, doc.control_points()) {
         (_, Some((points, outside))) => {
             let mut knots: Vec<f32> = points.iter().map(|p| p.lambda_nm).collect();
             if let (Outside::Zero, Some(first), Some(last)) = (outside, points.first(), points.last()) {
-                // A step becomes a slope that is too steep to matter.
+                // A step becomes a slope 0.01 nm wide, narrow enough to be negligible.
                 knots.extend([first.lambda_nm - 0.01, last.lambda_nm + 0.01]);
             }
             knots
         }
-        // A colour is smooth: a point every 20 nm.
+        // A colour has a smooth spectrum: one point every 20 nm.
         (SpectrumDoc::Rgb(_), None) => {
             (0..=23u8).map(|i| LAMBDA_MIN_NM + 20.0 * f32::from(i)).chain([LAMBDA_MAX_NM]).collect()
         }
@@ -241,7 +243,7 @@ mod tests {
                             }
                             for [t0, t, a0, a] in seen {
                                 assert!((t - t0).abs() <= 2e-5 * t0 + 2e-6, "{other:?}: {t} {t0}");
-                                // Where nothing is extinguished, nothing says what the albedo was.
+                                // Where the extinction is zero, the albedo is undefined.
                                 assert!(t0 == 0.0 || (a - a0).abs() < 2e-4, "{other:?}: {a} {a0}");
                             }
                             let between = (360..=830u16).map(f32::from).filter(|_| !lambdas.is_empty());

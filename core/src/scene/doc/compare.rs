@@ -1,45 +1,44 @@
-//! The comparison as edited: further views of the scene, how they share the machine, what they are held
-//! against, and what of them is shown.
+//! Editable comparison: additional views of a scene, their budget, reference and display.
 
 use super::{CameraDoc, EstimatorDoc, MajorantDoc, SceneDoc, ViewDoc};
 use serde::{Deserialize, Serialize};
 
-/// The most views of a scene.
+/// Maximum number of views of a scene, including the scene's own.
 pub const MAX_VIEWS: usize = 8;
 
-/// A wall of views of one scene. View A is the scene itself; `views` are B, C, …
+/// Comparison of several views of one scene. View A is the scene itself; `views` are B, C, …
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CompareDoc {
-    /// The views beside the scene's own.
+    /// Views besides view A.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub views: Vec<ContenderDoc>,
-    /// What every view gets as much of as every other.
+    /// Quantity of which every view gets the same amount.
     pub fairness: Fairness,
-    /// What errors are measured against.
+    /// Reference that errors are measured against.
     pub reference: ReferenceDoc,
-    /// Which view speed-ups are relative to, from 0.
+    /// Index of the view that speed-ups are relative to, from 0.
     pub baseline: usize,
-    /// The measure of error, by its id.
+    /// Id of the error measure.
     pub measure: MeasureId,
-    /// The pixels that numbers are about, x0, y0, x1, y1 (half open). Absent: all.
+    /// Pixels that statistics are computed over: x0, y0, x1, y1 (half open). Absent: the whole image.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub region: Option<[u32; 4]>,
-    /// Earlier place of `window.arrangement`.
+    /// Former location of `window.arrangement`.
     #[serde(skip_serializing)]
     pub arrangement: Option<toml::Value>,
-    /// Earlier place of `window.pair`.
+    /// Former location of `window.pair`.
     #[serde(skip_serializing)]
     pub pair: Option<toml::Value>,
-    /// Earlier place of `window.layer`.
+    /// Former location of `window.layer`.
     #[serde(skip_serializing)]
     pub layer: Option<toml::Value>,
-    /// Earlier place of `window.own_zoom`.
+    /// Former location of `window.own_zoom`.
     #[serde(skip_serializing)]
     pub own_zoom: Option<toml::Value>,
 }
 
-/// The id of a measure of error.
+/// Id of an error measure.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct MeasureId(pub String);
@@ -50,29 +49,29 @@ impl Default for MeasureId {
     }
 }
 
-/// What a view has of its own; everything else is the scene's.
+/// Settings in which a view differs from the scene; all others are the scene's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ContenderDoc {
-    /// How light transport is estimated.
+    /// Estimator of light transport.
     pub estimator: EstimatorDoc,
-    /// The majorant that free flights are sampled from.
+    /// Majorant that free flights are sampled from.
     pub majorant: MajorantDoc,
-    /// Selects its random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// A camera of its own. Absent: the scene's.
+    /// Camera of this view. Absent: the scene's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub camera: Option<CameraDoc>,
-    /// An exposure and tone curve of its own. Absent: the scene's.
+    /// Exposure and tone curve of this view. Absent: the scene's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<ViewDoc>,
 }
 
-/// What every view gets as much of as every other.
+/// Quantity of which every view gets the same amount.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fairness {
-    /// CPU seconds of path tracing, all workers together.
+    /// CPU seconds of path tracing, summed over all worker threads.
     #[default]
     Time,
     /// Samples per pixel.
@@ -81,39 +80,40 @@ pub enum Fairness {
     Lookups,
 }
 
-/// What errors are measured against.
+/// Reference that errors are measured against.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", from = "Written")]
 pub enum ReferenceDoc {
-    /// Nothing: variances and z-values need no reference.
+    /// No reference: variances and z-values only.
     #[default]
     None,
-    /// For every view the mean of the other unbiased views.
+    /// For each view, the mean of the other unbiased views.
     Pooled,
-    /// The picture of a view, from 0.
+    /// The image of one view.
     View {
-        /// Which.
+        /// Index of the view, from 0.
         view: usize,
     },
-    /// A picture of its own, rendered in the background.
+    /// A separate image, rendered in the background.
     Render {
-        /// By which estimator.
+        /// Id of the estimator.
         estimator: String,
         /// Samples per pixel.
         #[serde(skip_serializing_if = "Option::is_none")]
         spp: Option<u64>,
-        /// Until the standard error is this share of the mean.
+        /// Stops when the standard error is this fraction of the mean.
         #[serde(skip_serializing_if = "Option::is_none")]
         relative_error: Option<f32>,
     },
-    /// An EXR picture.
+    /// An EXR image.
     File {
-        /// Its name, relative to the scene's file.
+        /// File name, relative to the scene file.
         file: String,
     },
 }
 
-/// A reference as it is written. Variants without parameters have braces: unknown keys are refused in them, too.
+/// Serialised form of a reference. Variants without parameters have braces so that unknown keys are rejected
+/// in them, too.
 #[derive(Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 enum Written {
@@ -148,11 +148,11 @@ impl From<Written> for ReferenceDoc {
     }
 }
 
-/// Random numbers of a reference that no view is given by default.
+/// Seed of a rendered reference; no view has it by default.
 const REFERENCE_SEED: u64 = 0x5eed_0000;
 
 impl SceneDoc {
-    /// Moves the window's keys that earlier versions kept under `compare` to `window`.
+    /// Moves the window keys that earlier versions kept under `compare` to `window`.
     #[must_use]
     pub fn with_window_keys_moved(mut self) -> Self {
         let compare = &mut self.compare;
@@ -170,14 +170,14 @@ impl SceneDoc {
         self
     }
 
-    /// Views of the scene, its own counted.
+    /// Number of views, including the scene's own.
     #[must_use]
     pub fn view_count(&self) -> usize {
         1 + self.compare.views.len()
     }
 
-    /// The document that a view renders: the scene with what the view has of its own. `None` if there is no
-    /// such view.
+    /// Document that a view renders: the scene with the view's own settings applied. `None` if the view does
+    /// not exist.
     #[must_use]
     pub fn view_doc(&self, view: usize) -> Option<Self> {
         let mut doc = Self { compare: CompareDoc::default(), window: toml::Table::new(), ..self.clone() };
@@ -203,8 +203,8 @@ impl SceneDoc {
         (0..self.view_count()).filter_map(|view| self.view_doc(view)).collect()
     }
 
-    /// Writes an edited document of a view back: what views have of their own goes to the view, the rest is
-    /// the scene's.
+    /// Writes an edited document of a view back: the view's own settings go to the view, all others to the
+    /// scene.
     #[must_use]
     pub fn with_view_doc(&self, view: usize, edited: &Self) -> Self {
         let mut doc = Self { compare: self.compare.clone(), window: self.window.clone(), ..edited.clone() };
@@ -230,7 +230,7 @@ impl SceneDoc {
         doc
     }
 
-    /// What a view would be described by as one more view.
+    /// Settings of a view, from which another view can be created. `None` if the view does not exist.
     #[must_use]
     pub fn contender(&self, view: usize) -> Option<ContenderDoc> {
         match view {
@@ -245,7 +245,7 @@ impl SceneDoc {
         }
     }
 
-    /// The lowest seed that no view has: views that share random numbers cannot be compared.
+    /// Lowest seed that no view uses: views that share random numbers cannot be compared.
     #[must_use]
     pub fn free_seed(&self) -> u64 {
         let taken: Vec<u64> =
@@ -253,7 +253,7 @@ impl SceneDoc {
         (0..).find(|seed| !taken.contains(seed)).unwrap_or_default()
     }
 
-    /// The document of a reference that is rendered in the background, if there is one.
+    /// Document of the reference that is rendered in the background; `None` for other kinds of reference.
     #[must_use]
     pub fn reference_doc(&self) -> Option<Self> {
         let ReferenceDoc::Render { estimator, spp, relative_error } = &self.compare.reference else {
@@ -305,7 +305,7 @@ mod tests {
         assert_eq!(doc.view_doc(1).unwrap(), edited);
         let a = doc.view_doc(0).unwrap();
         assert_eq!((a.medium.majorant.factor, a.estimator.mode, a.medium.scale), (1.0, Mode::Spectral, 7.0));
-        // A camera of its own is not the scene's.
+        // A view's own camera is independent of the scene's.
         let mut doc = doc;
         doc.compare.views[0].camera = Some(doc.camera.clone());
         let mut edited = doc.view_doc(1).unwrap();
@@ -344,7 +344,7 @@ mod tests {
         let made = reference.reference_doc().unwrap();
         assert!(made.render.seed > 1000 && made.render.spp == Some(8) && made.estimator.id == "nee");
         assert_eq!(doc.reference_doc(), None);
-        // What biases view A does not bias the reference.
+        // Settings that bias view A do not bias the reference.
         reference.estimator.transmittance = "marching".into();
         reference.estimator.bookkeeping = crate::scene::Bookkeeping::ApartF32;
         reference.estimator.fault = crate::scene::Fault::NullCap;

@@ -1,39 +1,39 @@
-//! Mistakes that real renderers have made, to be planted on purpose in Uni+NEE MIS.
+//! Known bugs of other renderers, which can be injected into Uni+NEE MIS.
 
 use serde::{Deserialize, Serialize};
 
-/// A planted mistake; each biases the image, or breaks it.
+/// Injected bug; each biases the image or corrupts it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fault {
-    /// None.
+    /// No bug.
     #[default]
     None,
-    /// p_uni takes the hero's probability of an event for every component.
+    /// p_uni uses the hero's event probability for every component.
     HeroProbability,
-    /// The probability of surviving roulette is left out of p_nee.
+    /// p_nee omits the survival probability of Russian roulette.
     RouletteOnOneTechnique,
-    /// An event is taken as null where its density is zero, and divides by that.
+    /// An event of density zero is treated as a null collision, and the weight is divided by zero.
     NullByRounding,
-    /// p_nee has the phase function's density besides the light's.
+    /// p_nee includes the phase function's density besides the light's.
     PhaseInBoth,
-    /// A flight ends after so many null collisions.
+    /// A free flight ends after a fixed number of null collisions.
     NullCap,
 }
 
-/// A mistake as people meet it.
+/// Description of a bug for users.
 #[derive(Clone, Copy, Debug)]
 pub struct FaultEntry {
-    /// Name for people.
+    /// Display name.
     pub name: &'static str,
-    /// What is wrong, and where it shows.
+    /// Description of the error, and where it is visible.
     pub summary: &'static str,
-    /// Where it was made, and put right.
+    /// Renderer and issue in which it occurred and was fixed.
     pub thread: &'static str,
 }
 
 impl Fault {
-    /// Every mistake, in the order that lists show.
+    /// All bugs, in display order.
     pub const ALL: [Self; 5] = [
         Self::HeroProbability,
         Self::RouletteOnOneTechnique,
@@ -42,39 +42,40 @@ impl Fault {
         Self::NullCap,
     ];
 
-    /// How people meet it; `None` where nothing is wrong.
+    /// Description for users; `None` for [`Self::None`].
     #[must_use]
     pub const fn entry(self) -> Option<FaultEntry> {
         let (name, summary, thread) = match self {
             Self::None => return None,
             Self::HeroProbability => (
                 "One event probability for all channels",
-                "The weights take the probability with which the hero drew an event as that of every channel. \
-                 Where it cancels nothing is lost but the combination; wrong where one hero never draws what \
-                 another would: absorption as an event, and a channel that only absorbs.",
-                "mitsuba3 #1387, put right by #1628 in 2025",
+                "The weights use the hero's event probability for every channel. Where the probability cancels, \
+                 only the benefit of MIS is lost. The image is wrong where one hero never samples an event that \
+                 another would: with absorption as an event, and with a channel that only absorbs.",
+                "mitsuba3 #1387, fixed by #1628 in 2025",
             ),
             Self::RouletteOnOneTechnique => (
                 "Roulette in one technique only",
-                "Surviving roulette enters the unidirectional density and not that of the connections, so that \
-                 the weights no longer sum to one. Wrong where paths are long enough for roulette.",
+                "The survival probability of Russian roulette enters the unidirectional density, but not that of \
+                 the connections, so the MIS weights no longer sum to one. Wrong where paths are long enough for \
+                 roulette.",
                 "mitsuba3's volpathmis",
             ),
             Self::NullByRounding => (
-                "A null collision where there is none",
-                "Rounding draws a null collision of density zero, and what follows is divided by that: not a \
-                 number. There once in ten million collisions, here once in five hundred.",
+                "A null collision of density zero",
+                "Rounding selects a null collision of density zero, and the weight is divided by that density: NaN. \
+                 In the original once in ten million collisions, here once in five hundred.",
                 "pbrt-v4 #172, #179 and #196",
             ),
             Self::PhaseInBoth => (
                 "Algorithm 4 as printed",
                 "The density of the phase function multiplies both techniques. It belongs to the unidirectional \
-                 one; a connection's direction is drawn by the light.",
+                 technique only; the direction of a connection is sampled from the light.",
                 "the report's algorithm 4, lines 14 and 19",
             ),
             Self::NullCap => (
                 "A cap on null collisions",
-                "A flight ends in the dark after eight null collisions, where a renderer might allow a \
+                "A free flight ends with zero contribution after eight null collisions; a renderer might allow a \
                  thousand. Wrong where the majorant is loose.",
                 "lajolla's max_null_collisions",
             ),

@@ -1,4 +1,4 @@
-//! Lights as edited.
+//! Editable lights.
 
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
@@ -19,17 +19,17 @@ fn world_up() -> [f32; 3] {
     [0.0, 1.0, 0.0]
 }
 
-/// One light. Radiances are per scene-unit² and steradian, each times `scale`.
+/// Light source. Radiances are per scene-unit² and steradian, each multiplied by `scale`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LightDoc {
-    /// A rectangle that emits on the side that faces `target`; its back is black. It blocks light.
+    /// A rectangle that emits on the side facing `target`; its back is black. It blocks light.
     Rectangle {
-        /// Its centre.
+        /// Centre.
         center: [f32; 3],
-        /// The point that it faces.
+        /// Point that the emitting side faces.
         target: [f32; 3],
-        /// Direction that its height leans to.
+        /// Direction of the height, projected onto the rectangle.
         #[serde(default = "world_up")]
         up: [f32; 3],
         /// Width and height.
@@ -40,15 +40,15 @@ pub enum LightDoc {
         /// Multiplies the radiance.
         #[serde(default = "unit")]
         scale: f32,
-        /// Whether the camera sees it directly.
+        /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
     },
     /// A sphere that emits outwards and blocks light.
     Sphere {
-        /// Its centre.
+        /// Centre.
         center: [f32; 3],
-        /// Its radius.
+        /// Radius.
         radius: f32,
         /// Emitted radiance.
         #[serde(default = "one")]
@@ -56,15 +56,15 @@ pub enum LightDoc {
         /// Multiplies the radiance.
         #[serde(default = "unit")]
         scale: f32,
-        /// Whether the camera sees it directly.
+        /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
     },
-    /// A distant disc: all its light comes from within half its diameter of one direction.
+    /// A distant disc: all light arrives within half its angular diameter of one direction.
     Sun {
-        /// Points from the scene to the sun.
+        /// Direction from the scene to the sun.
         toward: [f32; 3],
-        /// Apparent diameter, degrees.
+        /// Angular diameter, degrees.
         #[serde(default = "solar_diameter")]
         angular_diameter_deg: f32,
         /// Irradiance on a surface that faces the sun.
@@ -73,33 +73,33 @@ pub enum LightDoc {
         /// Multiplies the irradiance.
         #[serde(default = "unit")]
         scale: f32,
-        /// Whether the camera sees it directly.
+        /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
     },
-    /// The same radiance from every direction.
+    /// Constant radiance from every direction.
     Environment {
-        /// Arriving radiance.
+        /// Incident radiance.
         #[serde(default = "one")]
         radiance: SpectrumDoc,
         /// Multiplies the radiance.
         #[serde(default = "unit")]
         scale: f32,
-        /// Whether the camera sees it directly.
+        /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
     },
-    /// Radiance by direction from an equirectangular EXR or HDR picture (linear sRGB; top row is +y).
+    /// Radiance by direction from an equirectangular EXR or HDR image (linear sRGB; top row is +y).
     EnvironmentMap {
-        /// The picture; relative to the scene file.
+        /// Image file, relative to the scene file.
         file: String,
-        /// Turns it about the y axis, degrees.
+        /// Rotation about the y axis, degrees.
         #[serde(default)]
         rotate_deg: f32,
         /// Multiplies the radiance.
         #[serde(default = "unit")]
         scale: f32,
-        /// Whether the camera sees it directly.
+        /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
     },
@@ -112,7 +112,7 @@ impl Default for LightDoc {
 }
 
 impl LightDoc {
-    /// One of each kind, with the name that pickers show: what "Add light" offers.
+    /// One light of each kind with its display name: the entries of "Add light".
     #[must_use]
     pub fn templates() -> Vec<(&'static str, Self)> {
         vec![
@@ -156,7 +156,7 @@ impl LightDoc {
         ]
     }
 
-    /// The kind's name for people.
+    /// Display name of the kind.
     #[must_use]
     pub fn kind_name(&self) -> &'static str {
         match self {
@@ -168,7 +168,7 @@ impl LightDoc {
         }
     }
 
-    /// Whether the camera sees it directly.
+    /// Returns whether camera rays see the light directly.
     #[must_use]
     pub fn visible(&self) -> bool {
         match self {

@@ -1,4 +1,4 @@
-//! The medium as edited.
+//! Editable medium.
 
 use super::CoefficientsDoc;
 use crate::medium::{Interpolation, MajorantDoc, Precision};
@@ -12,31 +12,31 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MediumDoc {
-    /// Multiplies the density.
+    /// Multiplier of the density.
     pub scale: f32,
-    /// Extinction of density 1, by wavelength.
+    /// Spectrum of the extinction at density 1, per scene unit.
     pub extinction: SpectrumDoc,
-    /// Scattered fraction of what is extinguished, 0 to 1.
+    /// Single-scattering albedo, 0 to 1.
     pub albedo: SpectrumDoc,
-    /// Replaces `extinction` and `albedo` by another way to give them.
+    /// Other parametrisation of the coefficients, in place of `extinction` and `albedo`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficients: Option<CoefficientsDoc>,
-    /// Replaces the albedo by an RGB grid over the same box.
+    /// RGB grid over the same box, in place of the albedo.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub albedo_grid: Option<GridRef>,
-    /// Where the density comes from.
+    /// Source of the density.
     pub density: DensityDoc,
-    /// How many bits a value of a grid takes in memory.
+    /// Precision of grid values in memory.
     pub precision: Precision,
-    /// How grids are looked up between samples.
+    /// Interpolation between grid samples.
     pub interpolation: Interpolation,
-    /// Where the box stands.
+    /// Placement of the box in the world.
     pub placement: PlacementDoc,
     /// The majorant that free flights are sampled from.
     pub majorant: MajorantDoc,
-    /// Which way light scatters.
+    /// Phase function.
     pub phase: PhaseDoc,
-    /// How it glows. Absent: not at all.
+    /// Thermal emission. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emission: Option<EmissionDoc>,
 }
@@ -60,16 +60,16 @@ impl Default for MediumDoc {
     }
 }
 
-/// Thermal emission: what absorbs also emits, as a black body does at its temperature.
+/// Thermal emission: the absorption coefficient times the radiance of a black body at the local temperature.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EmissionDoc {
-    /// Temperature by place; in OpenVDB files usually the grid `temperature`. Absent: the same everywhere.
+    /// Temperature grid; in OpenVDB files usually named `temperature`. Absent: constant temperature.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub temperature: Option<GridRef>,
-    /// Kelvins of a temperature of 1.
+    /// Kelvins per unit of the grid's temperature.
     pub kelvin: f32,
-    /// Multiplies the radiance, which is 1 for 3000 K at 560 nm.
+    /// Multiplier of the radiance, which is 1 for 3000 K at 560 nm.
     pub scale: f32,
 }
 
@@ -83,15 +83,16 @@ impl Default for EmissionDoc {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GridRef {
-    /// The file, relative to the scene file, or `embedded:plume.vdb`.
+    /// File name, relative to the scene file, or `embedded:plume.vdb`.
     pub file: String,
-    /// The grid's name inside the file; by default `density` (or `temperature`, for an emission), else the grid that is
-    /// named most like it. A grid of another quantity, by its name or class, is never the default.
+    /// Name of the grid inside the file. Default: `density` (or `temperature`, for emission), else the grid
+    /// with the most similar name. A grid whose name or class identifies another quantity is never the
+    /// default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grid: Option<String>,
 }
 
-/// Where the density comes from.
+/// Source of the density.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DensityDoc {
@@ -99,7 +100,7 @@ pub enum DensityDoc {
     Uniform {},
     /// A scalar grid, trilinear between samples.
     Grid(GridRef),
-    /// An RGB grid that stands for density times extinction; `extinction` is then unused.
+    /// An RGB grid of density times extinction; `extinction` is then unused.
     RgbGrid(GridRef),
 }
 
@@ -110,7 +111,7 @@ impl Default for DensityDoc {
 }
 
 impl DensityDoc {
-    /// The file behind it, if any.
+    /// Grid file, if the density comes from one.
     #[must_use]
     pub fn grid(&self) -> Option<&GridRef> {
         match self {
@@ -120,20 +121,20 @@ impl DensityDoc {
     }
 }
 
-/// An affine placement: fit, then scale, rotate, translate; or a matrix instead of all of them.
+/// Affine placement: fit, then scale, rotation and translation, or a matrix in place of these three.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlacementDoc {
-    /// First centre the box on the origin and scale its longest side to this length.
+    /// Centres the box on the origin and scales its longest side to this length, before the other steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit: Option<f32>,
-    /// Scale along the box's axes.
+    /// Scale along the axes of the box.
     pub scale: [f32; 3],
-    /// Turns about x, then y, then z, degrees.
+    /// Rotation about x, then y, then z, degrees.
     pub rotate_deg: [f32; 3],
-    /// Moves by this much.
+    /// Translation.
     pub translate: [f32; 3],
-    /// Three rows of a world-from-object matrix, instead of scale, rotation and translation.
+    /// Three rows of a world-from-object matrix, in place of scale, rotation and translation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matrix: Option<[[f32; 4]; 3]>,
 }

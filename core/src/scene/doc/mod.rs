@@ -1,7 +1,7 @@
-//! The editable scene: what a person edits, what a scene file holds, what undo remembers.
+//! Editable scene: the document that panels edit, scene files store and undo keeps.
 //!
-//! Plain data without handles or caches. [`super::build`] freezes it into a [`super::Scene`].
-//! Lengths are in scene units, angles in degrees, wavelengths in nanometres, extinction per scene unit.
+//! Plain data without handles or caches. [`super::build`] freezes it into a [`super::Scene`]. Lengths are in
+//! scene units, angles in degrees, wavelengths in nanometres, extinction per scene unit.
 
 mod camera;
 mod coefficients;
@@ -32,49 +32,49 @@ pub use render::{Limits, RenderDoc};
 
 use serde::{Deserialize, Serialize};
 
-/// The version of the scene format that this program writes.
+/// Version of the scene format that this program writes.
 pub const FORMAT_VERSION: u32 = 1;
 
-/// A whole scene, as edited and as stored.
+/// A complete scene, as edited and as stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneDoc {
-    /// Format version; a file without it or with another is refused.
+    /// Format version; files without it or with another version are rejected.
     pub majorant: u32,
-    /// A short name.
+    /// Short name.
     #[serde(default)]
     pub title: String,
-    /// What to notice in this scene.
+    /// Description of the scene: what to look for in the image.
     #[serde(default)]
     pub note: String,
-    /// Where the picture is taken from.
+    /// Camera.
     #[serde(default)]
     pub camera: CameraDoc,
-    /// Its size.
+    /// Image size.
     #[serde(default)]
     pub film: FilmDoc,
-    /// What fills the box.
+    /// Medium.
     #[serde(default)]
     pub medium: MediumDoc,
-    /// Everything that emits.
+    /// Light sources.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<LightDoc>,
     /// Diffuse surfaces.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objects: Vec<ObjectDoc>,
-    /// How light transport is estimated.
+    /// Estimator of light transport.
     #[serde(default)]
     pub estimator: EstimatorDoc,
-    /// When to stop, which random numbers, how many threads.
+    /// Stopping limits, seed and number of threads.
     #[serde(default)]
     pub render: RenderDoc,
-    /// How the image is shown; never changes the estimate.
+    /// Display settings; they never change the estimate.
     #[serde(default)]
     pub view: ViewDoc,
-    /// Further views of the scene, side by side.
+    /// Additional views of the scene and their comparison.
     #[serde(default, skip_serializing_if = "is_default")]
     pub compare: CompareDoc,
-    /// State of the window, kept for the application; nothing here reads it.
+    /// Window state, kept for the application and not read in this crate.
     #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     pub window: toml::Table,
 }
@@ -104,8 +104,8 @@ impl Default for SceneDoc {
 }
 
 impl SceneDoc {
-    /// Every file that the document names, those that are part of the program too; empty names are still to
-    /// be filled in and left out.
+    /// Names of all files that the document refers to, including embedded ones. Empty names, still to be
+    /// filled in, are omitted.
     pub fn files_mut(&mut self) -> Vec<&mut String> {
         let mut files = Vec::new();
         if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut self.medium.density {

@@ -1,4 +1,4 @@
-//! Diffuse surfaces as edited.
+//! Editable diffuse surfaces.
 
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
@@ -10,16 +10,16 @@ fn world_up() -> [f32; 3] {
     [0.0, 1.0, 0.0]
 }
 
-/// A surface that reflects diffusely; it receives light and blocks it.
+/// Diffuse surface; it receives light and blocks it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ObjectDoc {
     /// An infinite plane.
     Ground {
-        /// A point on it.
+        /// A point on the plane.
         #[serde(default)]
         point: [f32; 3],
-        /// The side that is lit; the other side reflects as well.
+        /// Normal of the upper side; the other side reflects as well.
         #[serde(default = "world_up")]
         normal: [f32; 3],
         /// Reflected fraction, 0 to 1.
@@ -28,11 +28,11 @@ pub enum ObjectDoc {
     },
     /// A solid box.
     Box {
-        /// Its centre.
+        /// Centre.
         center: [f32; 3],
         /// Edge lengths.
         size: [f32; 3],
-        /// Turns about x, then y, then z, degrees.
+        /// Rotation about x, then y, then z, degrees.
         #[serde(default)]
         rotate_deg: [f32; 3],
         /// Reflected fraction, 0 to 1.
@@ -42,7 +42,7 @@ pub enum ObjectDoc {
 }
 
 impl ObjectDoc {
-    /// One of each kind, with the name that pickers show.
+    /// One object of each kind with its display name.
     #[must_use]
     pub fn templates() -> Vec<(&'static str, Self)> {
         vec![
@@ -59,7 +59,7 @@ impl ObjectDoc {
         ]
     }
 
-    /// The kind's name for people.
+    /// Display name of the kind.
     #[must_use]
     pub fn kind_name(&self) -> &'static str {
         match self {

@@ -1,37 +1,38 @@
-//! Sampling limits as edited.
+//! Editable stopping limits, seed and number of threads.
 
 use serde::{Deserialize, Serialize};
 
-/// When to stop, which random numbers, how many threads.
+/// Stopping limits, seed and number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RenderDoc {
-    /// Stop after this many samples per pixel. Absent: no limit.
+    /// Maximum number of samples per pixel. Absent: no limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spp: Option<u64>,
-    /// Stop after this many seconds of rendering. Absent: no limit.
+    /// Maximum rendering time in seconds. Absent: no limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f32>,
-    /// Stop after this many CPU seconds of path tracing, all workers together. Absent: no limit.
+    /// Maximum CPU seconds of path tracing, summed over all worker threads. Absent: no limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cpu_seconds: Option<f32>,
-    /// Stop when the root mean square of the standard error is this share of the image's mean. Absent: no limit.
+    /// Target for the root mean square of the standard error, as a fraction of the image's mean. Absent: no
+    /// limit.
     ///
-    /// Asked after 16, 23, 32, 45, … samples per pixel, a factor of √2 apart. It has to hold twice in succession, and the
-    /// first and second half of the samples have to agree in the image's mean. Even so a picture is stopped early where it
-    /// happens to be too dark: paths that are rare and strong are missing from the mean and from the error alike. A fixed
-    /// number of samples has no such bias. As the only limit it ends a picture that is black, or has no finite value, after
-    /// 256 samples, and says so.
+    /// Checked after 16, 23, 32, 45, … samples per pixel, a factor of √2 apart. The target has to be met
+    /// twice in succession, and the means of the first and second half of the samples have to agree. Even so,
+    /// an image is stopped early where it happens to be too dark: rare, bright paths are missing from the
+    /// mean and from the error alike. A fixed number of samples has no such bias. As the only limit, it stops
+    /// an image that is black or has no finite value after 256 samples, and reports it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<f32>,
-    /// Selects the random numbers; the image depends on nothing else that is random.
+    /// Seed of the random numbers; nothing else in the image is random.
     pub seed: u64,
-    /// Worker threads. Absent: one per core.
+    /// Number of worker threads. Absent: one per core.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub threads: Option<usize>,
 }
 
-/// When a render stops: at whichever limit comes first.
+/// Stopping limits of a render; the first one reached applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
     /// Samples per pixel.
@@ -40,21 +41,21 @@ pub struct Limits {
     pub seconds: Option<f32>,
     /// CPU seconds of path tracing.
     pub cpu_seconds: Option<f32>,
-    /// Standard error as a share of the mean.
+    /// Standard error as a fraction of the mean.
     pub relative_error: Option<f32>,
 }
 
 impl Limits {
-    /// The largest number of samples that a scene file can hold: its integers have 64 bits and a sign.
+    /// Largest number of samples that a scene file can hold: its integers are signed 64-bit.
     pub const MOST_SAMPLES: u64 = i64::MAX as u64;
 
-    /// Stops after this many samples per pixel.
+    /// Limit of this many samples per pixel only.
     #[must_use]
     pub fn samples(spp: u64) -> Self {
         Self { spp: Some(spp), ..Self::default() }
     }
 
-    /// Whether a render would never end.
+    /// Returns whether no limit is set, so that a render would never end.
     #[must_use]
     pub fn are_none(&self) -> bool {
         *self == Self::default()
@@ -62,14 +63,14 @@ impl Limits {
 }
 
 impl RenderDoc {
-    /// When to stop.
+    /// Stopping limits.
     #[must_use]
     pub fn limits(&self) -> Limits {
         let Self { spp, seconds, cpu_seconds, relative_error, .. } = *self;
         Limits { spp, seconds, cpu_seconds, relative_error }
     }
 
-    /// Stops at these limits and no others.
+    /// Replaces the stopping limits.
     pub fn set_limits(&mut self, limits: Limits) {
         let Limits { spp, seconds, cpu_seconds, relative_error } = limits;
         (self.spp, self.seconds, self.cpu_seconds, self.relative_error) =
@@ -82,7 +83,8 @@ mod tests {
     use crate::io::scene_file;
     use crate::scene::{Limits, ReferenceDoc, SceneDoc, validate};
 
-    /// What a scene file can hold is read, written and kept to; what it cannot hold is refused by name.
+    /// Sample counts within the range of a scene file survive a round trip; larger counts are rejected with
+    /// their key.
     #[test]
     fn samples_are_counted_beyond_32_bits() {
         for spp in [1, u64::from(u32::MAX), 5_000_000_000, Limits::MOST_SAMPLES] {

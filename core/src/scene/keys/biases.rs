@@ -1,16 +1,16 @@
-//! When keys bias the estimate, and the unbiased values: the one way to a reference.
+//! Rules by which keys bias the estimate, and the corresponding unbiased values.
 
 use crate::scene::{Bookkeeping, DensityDoc, Fault, SceneDoc, WhenExceeded};
 use crate::transmittance::TransmittanceKind;
 
-/// A rule by which a key biases the estimate.
+/// Rule by which a key biases the estimate.
 #[derive(Debug)]
 pub struct Bias {
     /// The rule in words.
     pub when: &'static str,
-    /// Whether it holds for a document, under an estimator that uses the key.
+    /// Whether the rule applies to a document, for an estimator that uses the key.
     pub holds: fn(&SceneDoc) -> bool,
-    /// Puts the key to its unbiased value.
+    /// Sets the key to its unbiased value.
     pub undo: fn(&mut SceneDoc),
 }
 
@@ -35,20 +35,20 @@ pub(super) static CLAMPED: Bias = Bias {
 };
 
 pub(super) static ESTIMATOR: Bias = Bias {
-    when: "mitsuba2-volpath where the medium glows",
+    when: "mitsuba2-volpath where the medium emits",
     holds: |doc| doc.estimator.id == "mitsuba2-volpath" && doc.medium.emission.is_some(),
-    // Which estimator a reference takes is a choice: one that is biased all the same is refused.
+    // The estimator of a reference is a choice: one that is biased nevertheless is rejected.
     undo: |_| (),
 };
 
 pub(super) static FAULT: Bias = Bias {
-    when: "anything but `none`, under Uni+NEE MIS",
+    when: "every value except `none`, under Uni+NEE MIS",
     holds: |doc| doc.estimator.fault != Fault::None,
     undo: |doc| doc.estimator.fault = Fault::None,
 };
 
 pub(super) static OVERFLOW: Bias = Bias {
-    when: "`apart-f32`, under Uni+NEE MIS: samples that overflow are left out",
+    when: "`apart-f32`, under Uni+NEE MIS: samples that overflow are dropped",
     holds: |doc| doc.estimator.bookkeeping == Bookkeeping::ApartF32,
     undo: |doc| {
         if doc.estimator.bookkeeping == Bookkeeping::ApartF32 {
@@ -58,7 +58,7 @@ pub(super) static OVERFLOW: Bias = Bias {
 };
 
 pub(super) static MARCHED: Bias = Bias {
-    when: "`marching`, under estimators whose connections may estimate it in any way",
+    when: "`marching`, under estimators that use this transmittance estimator",
     holds: marches,
     undo: |doc| {
         if marches(doc) {
@@ -72,8 +72,8 @@ fn marches(doc: &SceneDoc) -> bool {
 }
 
 impl SceneDoc {
-    /// The document with every key that can bias its estimate at the unbiased value; what the expected image depends on
-    /// stays, and so does the estimator. References are rendered from it.
+    /// Returns the document with every key that can bias the estimate at its unbiased value. Keys that the
+    /// expected image depends on stay, and so does the estimator. References are rendered from this document.
     #[must_use]
     pub fn unbiased(&self) -> Self {
         let mut doc = self.clone();

@@ -1,4 +1,4 @@
-//! Keys of the file itself, the camera and the film.
+//! Keys of the file, the camera and the film.
 
 use super::{Affects, COORDINATE, Default, Key, Range, Type};
 use crate::scene::validate::MAX_PIXELS;
@@ -12,26 +12,33 @@ pub(super) const KEYS: &[Key] = &[
         Type::Integer(Range::closed(1.0, 1.0)),
         Required,
         "Format",
-        "Version of the file's format",
+        "Version of the file format",
     )
     .affects(Affects::View),
     Key::new("title", Type::Text, Is("\"\""), "Title", "A short name").affects(Affects::View),
-    Key::new("note", Type::Text, Is("\"\""), "Note", "What to notice in this scene").affects(Affects::View),
+    Key::new(
+        "note",
+        Type::Text,
+        Is("\"\""),
+        "Note",
+        "Description of the scene: what to look for in the image",
+    )
+    .affects(Affects::View),
     Key::new(
         "camera.origin",
         Type::Vector(3, COORDINATE),
         Is("[0.0, 0.0, 3.0]"),
-        "Stands at",
-        "Where the camera is",
+        "Camera position",
+        "Position of the camera",
     ),
     Key::new(
         "camera.target",
         Type::Vector(3, COORDINATE),
         Is("[0.0, 0.0, 0.0]"),
-        "Looks at",
-        "What orbiting turns about",
+        "Camera target",
+        "Point that the camera faces, and the centre of orbiting",
     ),
-    Key::new("camera.up", Type::Direction, Is("[0.0, 1.0, 0.0]"), "Up", "Which way is up"),
+    Key::new("camera.up", Type::Direction, Is("[0.0, 1.0, 0.0]"), "Up", "Up direction of the camera"),
     Key::new(
         "camera.fov_deg",
         Type::Number(Range::between(0.0, 179.0)),

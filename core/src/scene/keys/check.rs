@@ -1,4 +1,4 @@
-//! Values held against the ranges of their keys.
+//! Validation of values against the ranges of their keys.
 
 use super::part::Leaf;
 use super::{DIRECTION, Range, Type, part};
@@ -6,13 +6,14 @@ use crate::scene::{Problem, ReferenceDoc, SceneDoc};
 use crate::spectrum::SpectrumDoc;
 use toml::Value;
 
-/// Every value of a document that its key does not allow, in the order of the table. Views beside the scene's own are
-/// checked by [`crate::scene::validate`], as what they render.
+/// Problems of all values outside the range of their key, in the order of the table. Further views are
+/// checked by [`crate::scene::validate`], as the documents they render.
 pub(in crate::scene) fn check(doc: &SceneDoc) -> Vec<Problem> {
     let mut doc = doc.clone();
     doc.compare.views.clear();
     let mut problems = Vec::new();
-    // A scene file holds no larger number: that is a problem, but none of the other keys'.
+    // An unsigned number beyond the range of a scene file is one problem, and must not stop the check of
+    // other keys.
     let mut fits = |path: &str, number: u64| {
         let fits = i64::try_from(number).is_ok();
         if !fits {
@@ -44,7 +45,7 @@ fn problem(leaf: &Leaf) -> Option<Problem> {
     Some(Problem { path: leaf.path.clone(), message })
 }
 
-/// What is wrong with a value; what is of another type was refused when it was read.
+/// Problem with a value. Values of another type were already rejected when the file was read.
 fn wrong(value: &Value, wanted: Type) -> Option<String> {
     match wanted {
         Type::Number(range) => {
@@ -96,7 +97,7 @@ fn single(value: &Value) -> Option<f32> {
     value.as_float().map(|x| x as f32).or_else(|| value.as_integer().map(|x| x as f32))
 }
 
-/// All numbers of an array, rows after rows.
+/// All numbers of a nested array, row by row.
 fn numbers(value: &Value) -> Vec<f32> {
     match value {
         Value::Array(entries) => entries.iter().flat_map(numbers).collect(),
@@ -104,7 +105,7 @@ fn numbers(value: &Value) -> Vec<f32> {
     }
 }
 
-/// A range in words.
+/// Text of a range.
 pub(super) fn words(range: Range) -> String {
     let end = |x: f64| match x.abs() {
         large if large >= f64::from(f32::MAX) => "any finite number".to_owned(),

@@ -1,4 +1,4 @@
-//! Keys of the comparison. What a view has of its own has the rows of the scene's keys again.
+//! Keys of the comparison. The settings of further views repeat the rows of the scene's keys.
 
 use super::{Affects, Default, Key, POSITIVE, Range, Registry, SAMPLES, Type, named};
 use crate::scene::MAX_VIEWS;
@@ -23,7 +23,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["time", "samples", "lookups"]),
         Is("\"time\""),
         "Fairness",
-        "What every view gets as much of as every other",
+        "Quantity of which every view gets the same amount",
     )
     .affects(Affects::Limits),
     key(
@@ -31,16 +31,16 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["none", "pooled", "view", "render", "file"]),
         Is("\"none\""),
         "Reference",
-        "What errors are measured against",
+        "Reference that errors are measured against",
     ),
-    key("compare.reference.view", VIEW, Required, "View", "The view whose picture it is, from 0")
+    key("compare.reference.view", VIEW, Required, "View", "View whose image is the reference, from 0")
         .kinds(&["view"]),
     key(
         "compare.reference.estimator",
         Type::Id(Registry::Estimators),
         Required,
         "Estimator",
-        "What a reference is rendered by",
+        "Estimator that renders the reference",
     )
     .kinds(RENDERED),
     key(
@@ -58,31 +58,31 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(POSITIVE),
         Absent("no limit"),
         "Error",
-        "A rendered reference stops when its standard error is this share of the mean",
+        "A rendered reference stops when its standard error is this fraction of the mean",
     )
     .cure("0.01 is one percent of the mean")
     .kinds(RENDERED),
-    key("compare.reference.file", Type::File, Required, "File", "An EXR picture, relative to the scene file")
+    key("compare.reference.file", Type::File, Required, "File", "An EXR image, relative to the scene file")
         .kinds(&["file"]),
-    key("compare.baseline", VIEW, Is("0"), "Baseline", "The view that speed-ups are relative to, from 0"),
+    key("compare.baseline", VIEW, Is("0"), "Baseline", "View that speed-ups are relative to, from 0"),
     key(
         "compare.measure",
         Type::Id(Registry::Measures),
         Is("\"relmse\""),
         "Measure",
-        "The measure of error of curves and tables",
+        "Error measure of curves and tables",
     ),
     key(
         "compare.region",
         Type::Integers(4, Range::closed(0.0, u32::MAX as f64)),
-        Absent("the whole picture"),
+        Absent("the whole image"),
         "Region",
-        "The pixels that numbers are about: x0, y0, x1, y1, half open",
+        "Pixels that statistics are computed over: x0, y0, x1, y1, half open",
     )
     .unit("px"),
 ];
 
-/// Where a view keeps what it has of its own, and where the scene has it.
+/// Sections of a view, with the corresponding sections of the scene.
 const OWN: [(&str, &str); 5] = [
     ("estimator", "estimator"),
     ("majorant", "medium.majorant"),
@@ -91,7 +91,7 @@ const OWN: [(&str, &str); 5] = [
     ("view", "view"),
 ];
 
-/// The keys of views, from those of the scene.
+/// Keys of views, derived from the scene's keys.
 pub(super) fn of_views(scene: &[Key]) -> Vec<Key> {
     let mut keys = Vec::new();
     for (own, theirs) in OWN {

@@ -6,7 +6,7 @@ use Default::{Absent, Is};
 
 const COUNT: Range = Range::closed(0.0, u32::MAX as f64);
 
-/// A key that affects how the image is estimated.
+/// Key that affects how the image is estimated.
 const fn axis(
     path: &'static str,
     value: Type,
@@ -23,7 +23,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Id(Registry::Estimators),
         "\"uni-nee-mis\"",
         "Estimator",
-        "How light transport is estimated: an id that `majorant estimators` lists",
+        "Estimator of light transport: an id listed by `majorant estimators`",
     )
     .biases(&ESTIMATOR),
     axis(
@@ -31,7 +31,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["spectral", "rgb"]),
         "\"spectral\"",
         "Components",
-        "What a path carries",
+        "Components of a path: sampled wavelengths or RGB channels",
     )
     .affects(Affects::Scene),
     axis(
@@ -39,56 +39,56 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["independent", "lattice", "sobol"]),
         "\"independent\"",
         "Samples",
-        "How the samples of a pixel relate to each other",
+        "Sampler: independent random numbers or a low-discrepancy sequence per pixel",
     ),
     axis(
         "estimator.wavelengths",
         Type::Choice(&["sensor", "uniform"]),
         "\"sensor\"",
         "Wavelengths",
-        "How the hero's wavelength is drawn; the others are rotations of it",
+        "Distribution of the hero wavelength; the others are rotations of it",
     ),
     axis(
         "estimator.distances",
         Type::Choice(&["delta", "weighted-delta", "decomposition"]),
         "\"delta\"",
         "Distances",
-        "How the distance to the next event is drawn",
+        "Sampling of the distance to the next event",
     ),
     axis(
         "estimator.directions",
         Type::Choice(&["phase", "towards-lights", "product"]),
         "\"phase\"",
         "Directions",
-        "What directions in the medium are drawn from",
+        "Distribution of directions sampled in the medium",
     ),
     axis(
         "estimator.absorption",
         Type::Choice(&["analogue", "weighted", "roulette"]),
         "\"weighted\"",
         "Absorption",
-        "What happens at a collision that may absorb",
+        "Treatment of absorption at a collision",
     ),
     axis(
         "estimator.heuristics.components",
         Type::Choice(&["balance", "power", "maximum", "hero-only"]),
         "\"balance\"",
         "Heroes",
-        "How the components that could have been the hero share a path",
+        "MIS heuristic among the components that could have been the hero",
     ),
     axis(
         "estimator.heuristics.techniques",
         Type::Choice(&["balance", "power", "maximum", "hero-only"]),
         "\"balance\"",
         "Techniques",
-        "How unidirectional sampling and next-event estimation share a path; `hero-only` is refused here",
+        "MIS heuristic between unidirectional sampling and next-event estimation; `hero-only` is not allowed here",
     ),
     axis(
         "estimator.bookkeeping",
         Type::Choice(&["rescaled", "apart-f32", "apart-f64", "pairwise"]),
         "\"rescaled\"",
         "Weights",
-        "How a path's contribution f and densities p are kept",
+        "Representation of a path's contribution f and densities p",
     )
     .biases(&OVERFLOW),
     axis(
@@ -96,7 +96,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["maximum", "average", "history"]),
         "\"history\"",
         "Tracking",
-        "What spectral tracking draws events by",
+        "Statistic of the coefficients that sets the event probabilities of spectral tracking",
     ),
     axis(
         "estimator.fault",
@@ -110,7 +110,7 @@ pub(super) const KEYS: &[Key] = &[
         ]),
         "\"none\"",
         "Fault",
-        "A mistake of another renderer, planted in Uni+NEE MIS to be found",
+        "Known bug of another renderer, injected into Uni+NEE MIS to demonstrate its effect",
     )
     .biases(&FAULT),
     axis(
@@ -118,28 +118,28 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["fused", "separate"]),
         "\"fused\"",
         "Light walk",
-        "Which walk meets the light that unidirectional sampling adds",
+        "Walk that samples the unidirectional contribution",
     ),
     axis(
         "estimator.lights",
         Type::Choice(&["uniform", "power", "contribution"]),
         "\"uniform\"",
         "Lights",
-        "Which light a connection goes to",
+        "Selection of the light for next-event estimation",
     ),
     axis(
         "estimator.light_sampling",
         Type::Choice(&["emitter", "product"]),
         "\"emitter\"",
         "Aim",
-        "Where on a light a connection goes",
+        "Sampling of the direction towards the selected light",
     ),
     axis(
         "estimator.transmittance",
         Type::Id(Registry::Transmittance),
         "\"ratio-hero\"",
         "Transmittance",
-        "How connections estimate transmittance on their way to a light",
+        "Transmittance estimator of connections to a light",
     )
     .biases(&MARCHED),
     Key::new(
@@ -147,7 +147,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Integer(Range::closed(1.0, u32::MAX as f64)),
         Absent("unlimited"),
         "Max depth",
-        "Most segments of a path: 1 is emission only, 2 is single scattering",
+        "Maximum number of path segments: 1 is emission only, 2 is single scattering",
     )
     .cure("leave it out for no limit"),
     axis(
@@ -155,6 +155,6 @@ pub(super) const KEYS: &[Key] = &[
         Type::IntegerOr(COUNT, "never"),
         "16",
         "Roulette from",
-        "Ends faint paths at random after this many scatterings; unbiased",
+        "Russian roulette, by throughput, after this many scattering events; unbiased",
     ),
 ];

@@ -12,16 +12,16 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["rectangle", "sphere", "sun", "environment", "environment-map"]),
         Required,
         "Kind",
-        "What kind of light it is",
+        "Kind of light",
     ),
-    Key::new("lights.*.center", Type::Vector(3, COORDINATE), Required, "Centre", "Where it is")
+    Key::new("lights.*.center", Type::Vector(3, COORDINATE), Required, "Centre", "Position of the centre")
         .kinds(&["rectangle", "sphere"]),
     Key::new(
         "lights.*.target",
         Type::Vector(3, COORDINATE),
         Required,
         "Target",
-        "The point that its lit side faces",
+        "Point that the emitting side faces",
     )
     .kinds(&["rectangle"]),
     Key::new(
@@ -29,24 +29,30 @@ pub(super) const KEYS: &[Key] = &[
         Type::Direction,
         Is("[0.0, 1.0, 0.0]"),
         "Up",
-        "Direction that its height leans to",
+        "Direction of the height, projected onto the rectangle",
     )
     .kinds(&["rectangle"]),
     Key::new("lights.*.size", Type::Vector(2, LENGTH), Required, "Size", "Width and height, scene units")
         .kinds(&["rectangle"]),
-    Key::new("lights.*.radius", Type::Number(LENGTH), Required, "Radius", "In scene units")
+    Key::new("lights.*.radius", Type::Number(LENGTH), Required, "Radius", "Radius, scene units")
         .kinds(&["sphere"]),
-    Key::new("lights.*.toward", Type::Direction, Required, "Direction", "From the scene to the sun")
-        .kinds(&["sun"]),
+    Key::new(
+        "lights.*.toward",
+        Type::Direction,
+        Required,
+        "Direction",
+        "Direction from the scene to the sun",
+    )
+    .kinds(&["sun"]),
     Key::new(
         "lights.*.angular_diameter_deg",
         Type::Number(Range::closed(0.05, 170.0)),
         Is("0.53"),
         "Diameter",
-        "Apparent diameter: 0.53° from the earth",
+        "Angular diameter: 0.53° as seen from the earth",
     )
     .unit("°")
-    .cure("from 0.05 degrees on a scattered path can meet it")
+    .cure("below 0.05 degrees scattered paths would not hit it")
     .kinds(&["sun"]),
     Key::new("lights.*.radiance", RADIANCE, Is("1.0"), "Radiance", RADIANCE_TIP).kinds(&[
         "rectangle",
@@ -66,7 +72,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::File,
         Required,
         "Picture",
-        "An equirectangular EXR or HDR picture, linear sRGB; its top row is +y",
+        "An equirectangular EXR or HDR image, linear sRGB; its top row is +y",
     )
     .kinds(&["environment-map"]),
     Key::new(
@@ -74,7 +80,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(COORDINATE),
         Is("0.0"),
         "Rotation",
-        "Turns the picture about the y axis",
+        "Rotation of the image about the y axis",
     )
     .unit("°")
     .kinds(&["environment-map"]),
@@ -90,15 +96,9 @@ pub(super) const KEYS: &[Key] = &[
         Type::Bool,
         Is("true"),
         "Visible",
-        "Whether the camera sees it directly; it lights the medium either way",
+        "Visible to camera rays; the light illuminates the scene either way",
     ),
-    Key::new(
-        "objects.*.kind",
-        Type::Choice(&["ground", "box"]),
-        Required,
-        "Kind",
-        "What kind of surface it is",
-    ),
+    Key::new("objects.*.kind", Type::Choice(&["ground", "box"]), Required, "Kind", "Kind of surface"),
     Key::new(
         "objects.*.point",
         Type::Vector(3, COORDINATE),
@@ -112,10 +112,10 @@ pub(super) const KEYS: &[Key] = &[
         Type::Direction,
         Is("[0.0, 1.0, 0.0]"),
         "Normal",
-        "The direction that its top faces",
+        "Normal of the upper side",
     )
     .kinds(&["ground"]),
-    Key::new("objects.*.center", Type::Vector(3, COORDINATE), Required, "Centre", "Where it is")
+    Key::new("objects.*.center", Type::Vector(3, COORDINATE), Required, "Centre", "Position of the centre")
         .kinds(&["box"]),
     Key::new("objects.*.size", Type::Vector(3, LENGTH), Required, "Size", "Edge lengths").kinds(&["box"]),
     Key::new(
@@ -123,7 +123,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Vector(3, COORDINATE),
         Is("[0.0, 0.0, 0.0]"),
         "Rotation",
-        "Turns about x, then y, then z",
+        "Rotation about x, then y, then z",
     )
     .unit("°")
     .kinds(&["box"]),
@@ -132,6 +132,6 @@ pub(super) const KEYS: &[Key] = &[
         Type::Spectrum(SHARE),
         Is("0.5"),
         "Albedo",
-        "Reflected share of the light that arrives, 0 to 1",
+        "Fraction of incident light that is reflected, 0 to 1",
     ),
 ];

@@ -1,4 +1,4 @@
-//! Keys of the medium, but for its phase function.
+//! Keys of the medium, except for its phase function.
 
 use super::biases::{CLAMPED, FACTOR};
 use super::{Affects, COORDINATE, Default, Key, LENGTH, Range, SHARE, Type};
@@ -9,8 +9,8 @@ use Default::{Absent, Is, Required};
 const COEFFICIENT: Type = Type::Spectrum(Range::closed(0.0, 1e6));
 const GRIDS: &[&str] = &["grid", "rgb-grid"];
 const FILE_TIP: &str = "OpenVDB, .npy, Mitsuba .vol or .raw; relative to the scene file";
-const GRID_TIP: &str = "Which of the file's grids is used";
-const BY_DEFAULT: Default = Absent("`density`, else the first that is readable");
+const GRID_TIP: &str = "Name of the grid in the file";
+const BY_DEFAULT: Default = Absent("`density`, else the first readable grid");
 
 pub(super) const KEYS: &[Key] = &[
     Key::new(
@@ -32,21 +32,21 @@ pub(super) const KEYS: &[Key] = &[
         Type::Spectrum(SHARE),
         Is("0.9"),
         "Albedo",
-        "α(λ) = σs / σt: the share of extinguished light that is scattered, not absorbed",
+        "Single-scattering albedo α(λ) = σs / σt, 0 to 1",
     ),
     Key::new(
         "medium.coefficients.kind",
         Type::Choice(&["absorption-scattering", "mean-free-path-colour"]),
         Absent("by `extinction` and `albedo`"),
         "Coefficients",
-        "How the coefficients are given, in place of extinction and albedo",
+        "Parametrisation of the coefficients, in place of extinction and albedo",
     ),
     Key::new(
         "medium.coefficients.absorption",
         COEFFICIENT,
         Required,
         "Absorption",
-        "Absorption coefficient of density 1, per scene unit",
+        "Absorption coefficient σa(λ) at density 1, per scene unit",
     )
     .kinds(&["absorption-scattering"]),
     Key::new(
@@ -54,7 +54,7 @@ pub(super) const KEYS: &[Key] = &[
         COEFFICIENT,
         Required,
         "Scattering",
-        "Scattering coefficient of density 1, per scene unit",
+        "Scattering coefficient σs(λ) at density 1, per scene unit",
     )
     .kinds(&["absorption-scattering"]),
     Key::new(
@@ -62,7 +62,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Spectrum(Range::closed(MEAN_FREE_PATHS[0] as f64, MEAN_FREE_PATHS[1] as f64)),
         Required,
         "Mean free path",
-        "Mean distance between collisions in density 1, scene units",
+        "Mean free path 1 / σt(λ) at density 1, scene units",
     )
     .kinds(&["mean-free-path-colour"]),
     Key::new(
@@ -70,15 +70,15 @@ pub(super) const KEYS: &[Key] = &[
         Type::Spectrum(SHARE),
         Required,
         "Colour of the medium",
-        "Share of diffuse light that a half-space of the medium reflects",
+        "Diffuse reflectance of a half-space of the medium",
     )
     .kinds(&["mean-free-path-colour"]),
     Key::new(
         "medium.albedo_grid.file",
         Type::File,
-        Absent("no grid of albedo"),
+        Absent("no albedo grid"),
         "Albedo file",
-        "An RGB grid over the same box that replaces the albedo",
+        "RGB grid of the albedo over the same box; replaces `albedo`",
     ),
     Key::new("medium.albedo_grid.grid", Type::Text, BY_DEFAULT, "Albedo grid", GRID_TIP),
     Key::new(
@@ -86,7 +86,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["uniform", "grid", "rgb-grid"]),
         Is("\"uniform\""),
         "Source",
-        "Where the density comes from",
+        "Source of the density",
     ),
     Key::new("medium.density.file", Type::File, Required, "File", FILE_TIP).kinds(GRIDS),
     Key::new("medium.density.grid", Type::Text, BY_DEFAULT, "Grid", GRID_TIP).kinds(GRIDS),
@@ -95,14 +95,14 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["f32", "f16", "u8"]),
         Is("\"f32\""),
         "Precision",
-        "Bits of a value in memory",
+        "Storage format of grid values in memory",
     ),
     Key::new(
         "medium.interpolation",
         Type::Choice(&["trilinear", "stochastic"]),
         Is("\"trilinear\""),
-        "Between",
-        "How a value between samples is looked up",
+        "Interpolation",
+        "Interpolation between grid samples",
     )
     .affects(Affects::Estimate),
     Key::new(
@@ -117,14 +117,14 @@ pub(super) const KEYS: &[Key] = &[
         Type::Vector(3, COORDINATE),
         Is("[1.0, 1.0, 1.0]"),
         "Scale",
-        "Stretches the box along its axes",
+        "Scale along the axes of the box",
     ),
     Key::new(
         "medium.placement.rotate_deg",
         Type::Vector(3, COORDINATE),
         Is("[0.0, 0.0, 0.0]"),
         "Rotate",
-        "Turns about x, then y, then z",
+        "Rotation about x, then y, then z",
     )
     .unit("°"),
     Key::new(
@@ -132,21 +132,21 @@ pub(super) const KEYS: &[Key] = &[
         Type::Vector(3, COORDINATE),
         Is("[0.0, 0.0, 0.0]"),
         "Translate",
-        "Moves the box, scene units",
+        "Translation, scene units",
     ),
     Key::new(
         "medium.placement.matrix",
         Type::Matrix(COORDINATE),
         Absent("by scale, rotation and translation"),
         "Matrix",
-        "Three rows of a world-from-object matrix, instead of scale, rotation and translation",
+        "Three rows of a world-from-object matrix, in place of scale, rotation and translation",
     ),
     Key::new(
         "medium.majorant.factor",
         Type::Number(Range::closed(0.01, 1000.0)),
         Is("1.0"),
         "Factor",
-        "μ(x, λ) = factor · the largest σt(λ) in the cell around x. 1 is tight; above it null collisions are added",
+        "Majorant μ(x, λ) = factor · max σt(λ) in the cell around x. 1 is tight; larger values add null collisions",
     )
     .affects(Affects::Estimate)
     .biases(&FACTOR)
@@ -156,7 +156,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Bool,
         Is("false"),
         "Shared",
-        "Every wavelength gets the largest one's majorant",
+        "All wavelengths share the largest majorant",
     )
     .affects(Affects::Estimate),
     Key::new(
@@ -164,23 +164,23 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["weighted", "clamp", "progressive"]),
         Is("\"weighted\""),
         "Where exceeded",
-        "What happens where σt is larger than μ",
+        "Treatment of points where σt exceeds the majorant μ",
     )
     .affects(Affects::Estimate)
     .biases(&CLAMPED),
     Key::new(
         "medium.majorant.resolution",
         Type::Integer(Range::closed(1.0, MAX_MAJORANT_CELLS as f64)),
-        Absent("the cheapest to fly through"),
+        Absent("the cheapest resolution for free flights"),
         "Resolution",
-        "Cells per axis of the grid of local majorants, 1 to 128. 1 is one majorant for the whole box; finer ones are \
-         tighter and cost more steps. Automatic: the cheapest to fly through",
+        "Cells per axis of the grid of local majorants, 1 to 128. 1 is a global majorant; finer grids are tighter \
+         and cost more steps. Automatic: the cheapest resolution for free flights",
     )
     .affects(Affects::Estimate),
     Key::new(
         "medium.emission.temperature.file",
         Type::File,
-        Absent("the same everywhere"),
+        Absent("constant temperature"),
         "Temperature file",
         FILE_TIP,
     ),
@@ -190,7 +190,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(Range::above(0.0, 1e9)),
         Is("3000.0"),
         "Kelvin",
-        "How hot it is, or the kelvins of a temperature of 1 in the grid",
+        "Temperature, or kelvins per unit of the temperature grid",
     )
     .unit("K"),
     Key::new(
@@ -198,6 +198,6 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(Range::closed(0.0, 1e9)),
         Is("1.0"),
         "Scale",
-        "Multiplies the radiance, which is 1 for 3000 K at 560 nm",
+        "Multiplies the emitted radiance, which is 1 for 3000 K at 560 nm",
     ),
 ];

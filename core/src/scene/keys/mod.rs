@@ -1,12 +1,12 @@
-//! The table of keys: one row for every key of a scene file.
+//! Table of keys: one row per key of a scene file.
 //!
 //! ```text
-//!   camera, medium, phase, lights, estimator, render, compare ──► all() ──► validation, panels, `majorant keys`,
-//!                                                                           parts of documents, fingerprints, unbiased()
+//!   camera, medium, phase, lights, estimator, render, compare, window
+//!     ──► all() ──► validation, panels, `majorant keys`, parts of documents, fingerprints, unbiased()
 //! ```
 //!
-//! A row says which values make sense, what they mean, what they affect and when they bias the estimate. A new key is a
-//! field of a document and a row here; tests hold each to the other.
+//! A row holds the range of valid values, the meaning, what the key affects and when it biases the estimate.
+//! A new key is a field of a document and a row here; tests compare the two.
 
 mod biases;
 mod camera;
@@ -36,43 +36,43 @@ use std::sync::OnceLock;
 /// One key of a scene file.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
-    /// Where it stands: `medium.majorant.factor`; `*` stands for the number of a list's entry.
+    /// Path, e.g. `medium.majorant.factor`; `*` stands for an index into a list.
     pub path: &'static str,
-    /// The kinds of its table that have it; empty: all.
+    /// Kinds of the enclosing table that have the key; empty: all.
     pub kinds: &'static [&'static str],
-    /// What a value looks like.
+    /// Type and range of the value.
     pub value: Type,
-    /// The unit; empty: none.
+    /// Unit; empty: none.
     pub unit: &'static str,
-    /// The value if the key is absent.
+    /// Meaning of an absent key.
     pub default: Default,
-    /// Name in panels.
+    /// Label in panels.
     pub label: &'static str,
-    /// Meaning, preferably with the equation that it stands in.
+    /// Meaning, preferably with the equation in which the value occurs.
     pub tip: &'static str,
-    /// What it affects.
+    /// What the key affects.
     pub affects: Affects,
-    /// When it biases the estimate; absent: never.
+    /// Rule by which it biases the estimate; `None`: never.
     pub biases: Option<&'static Bias>,
-    /// How a value out of range is put right, at the end of the message.
+    /// Remedy at the end of the message about a value out of range.
     pub cure: &'static str,
 }
 
 /// What a key affects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Affects {
-    /// The expected image: what unbiased estimators converge to.
+    /// The expected image, to which unbiased estimators converge.
     Scene,
-    /// How that image is estimated: its noise, its cost, its random numbers.
+    /// The estimate of that image: noise, cost, random numbers.
     Estimate,
-    /// When rendering stops, and on how many threads it runs: no sample.
+    /// Stopping limits and number of threads; no sample.
     Limits,
-    /// What is shown, and what it is held against: no sample.
+    /// Display and reference; no sample.
     View,
 }
 
 impl Affects {
-    /// Its name in listings.
+    /// Name in listings.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -84,33 +84,33 @@ impl Affects {
     }
 }
 
-/// The value of an absent key.
+/// Meaning of an absent key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Default {
-    /// A value, as it is written in a scene file.
+    /// A default value, as written in a scene file.
     Is(&'static str),
-    /// No value, and what that means.
+    /// No value, with a description of what that means.
     Absent(&'static str),
-    /// The key has to be there.
+    /// The key is required.
     Required,
 }
 
-/// What a value looks like.
+/// Type and range of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Type {
     /// `true` or `false`.
     Bool,
     /// A real number.
     Number(Range),
-    /// A whole number.
+    /// An integer.
     Integer(Range),
-    /// A whole number, or a word.
+    /// An integer, or a keyword.
     IntegerOr(Range, &'static str),
-    /// So many real numbers.
+    /// A number of real numbers.
     Vector(usize, Range),
-    /// So many whole numbers.
+    /// A number of integers.
     Integers(usize, Range),
-    /// Three numbers that are not all zero.
+    /// Three numbers, not all zero.
     Direction,
     /// Three rows of four numbers.
     Matrix(Range),
@@ -118,58 +118,58 @@ pub enum Type {
     Pairs,
     /// A spectrum with values in this range.
     Spectrum(Range),
-    /// One of these words.
+    /// One of a list of words.
     Choice(&'static [&'static str]),
-    /// An id of a registry.
+    /// An id in a registry.
     Id(Registry),
-    /// The name of a file, relative to the scene's.
+    /// A file name, relative to the scene file.
     File,
     /// Any text.
     Text,
 }
 
-/// What ids are looked up in.
+/// Registry in which an id is looked up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Registry {
-    /// `majorant estimators`.
+    /// Estimators, as listed by `majorant estimators`.
     Estimators,
-    /// [`TransmittanceKind`].
+    /// Transmittance estimators ([`TransmittanceKind`]).
     Transmittance,
-    /// Measures of error.
+    /// Error measures.
     Measures,
 }
 
-/// Numbers that make sense.
+/// Range of valid numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// The least.
+    /// Minimum.
     pub min: f64,
-    /// The largest.
+    /// Maximum.
     pub max: f64,
-    /// Whether the ends themselves are left out.
+    /// Whether the lower and the upper end are excluded.
     pub open: [bool; 2],
 }
 
 impl Range {
-    /// A range with its ends.
+    /// A range including both ends.
     #[must_use]
     pub const fn closed(min: f64, max: f64) -> Self {
         Self { min, max, open: [false; 2] }
     }
 
-    /// A range above its lower end.
+    /// A range excluding its lower end.
     #[must_use]
     pub const fn above(min: f64, max: f64) -> Self {
         Self { min, max, open: [true, false] }
     }
 
-    /// A range between its ends.
+    /// A range excluding both ends.
     #[must_use]
     pub const fn between(min: f64, max: f64) -> Self {
         Self { min, max, open: [true; 2] }
     }
 
-    /// Whether a number of single precision is in it; ends count as single precision holds them.
+    /// Returns whether a single-precision number is in the range; the ends are rounded to single precision.
     #[must_use]
     pub fn holds(&self, value: f32) -> bool {
         let [low, high] = [self.min as f32, self.max as f32];
@@ -177,14 +177,14 @@ impl Range {
         above && if self.open[1] { value < high } else { value <= high }
     }
 
-    /// Whether a whole number is in it.
+    /// Returns whether an integer is in the range.
     #[must_use]
     pub fn holds_integer(&self, value: i64) -> bool {
         (self.min..=self.max).contains(&(value as f64))
     }
 
-    /// The same range with both ends included, as sliders need it: an open end moves by a millionth of its scale, which
-    /// single precision can tell.
+    /// The range with both ends included, for sliders: an open end is moved inwards by a millionth of its
+    /// magnitude, which single precision can resolve.
     #[must_use]
     pub fn inner(&self) -> std::ops::RangeInclusive<f64> {
         let low = 1e-6 * self.min.abs().max(self.max.abs().min(1.0));
@@ -199,19 +199,19 @@ impl Range {
 const COORDINATE: Range = Range::closed(-1e9, 1e9);
 /// Components of directions: small enough that their squares are finite.
 const DIRECTION: Range = Range::closed(-1e18, 1e18);
-/// Lengths.
+/// Lengths, scene units.
 const LENGTH: Range = Range::above(0.0, 1e9);
-/// Shares.
+/// Fractions.
 const SHARE: Range = Range::closed(0.0, 1.0);
-/// Limits that have to be positive.
+/// Limits, which have to be positive.
 const POSITIVE: Range = Range::above(0.0, f32::MAX as f64);
-/// Numbers of samples.
+/// Numbers of samples, up to the largest integer of a scene file.
 const SAMPLES: Range = Range::closed(1.0, i64::MAX as f64);
-/// Random seeds: what a scene file holds.
+/// Random seeds, up to the largest integer of a scene file.
 const SEEDS: Range = Range::closed(0.0, i64::MAX as f64);
 
 impl Key {
-    /// A key that affects the expected image, for all kinds, without a unit.
+    /// Creates a key that affects the expected image, for all kinds, without a unit.
     const fn new(
         path: &'static str,
         value: Type,
@@ -243,14 +243,14 @@ impl Key {
         Self { cure, ..self }
     }
 
-    /// Whether the frozen scene is built from it.
+    /// Returns whether the frozen scene is built from the key.
     #[must_use]
     pub fn is_frozen(&self) -> bool {
         let section = self.path.split('.').next().unwrap_or_default();
         ["camera", "film", "medium", "lights", "objects"].contains(&section)
     }
 
-    /// The values of a choice or registry that a document may hold, as far as this room knows them.
+    /// Valid values of a choice or of a registry known to this module; empty otherwise.
     #[must_use]
     pub fn values(&self) -> Vec<&'static str> {
         match self.value {
@@ -262,7 +262,7 @@ impl Key {
         }
     }
 
-    /// The range of its numbers, if it has any.
+    /// Range of the numbers, if the value has any.
     #[must_use]
     pub fn range(&self) -> Option<Range> {
         match self.value {
@@ -278,26 +278,26 @@ impl Key {
         }
     }
 
-    /// The default as it is written.
+    /// Default as written in a scene file.
     #[must_use]
     pub fn written_default(&self) -> Option<toml::Value> {
         let Default::Is(text) = self.default else { return None };
         toml::from_str::<toml::Table>(&format!("v = {text}")).ok()?.remove("v")
     }
 
-    /// The default as a document holds it: in single precision.
+    /// Default as stored in a document: rounded to single precision.
     #[must_use]
     pub fn default_value(&self) -> Option<toml::Value> {
         self.written_default().map(rounded)
     }
 
-    /// Whether it is a key of tables of this kind.
+    /// Returns whether tables of this kind have the key.
     fn is_of(&self, kind: Option<&str>) -> bool {
         self.kinds.is_empty() || kind.is_some_and(|kind| self.kinds.contains(&kind))
     }
 }
 
-/// A value with its numbers rounded to single precision.
+/// Rounds all numbers of a value to single precision.
 fn rounded(value: toml::Value) -> toml::Value {
     match value {
         toml::Value::Float(x) => toml::Value::Float(f64::from(x as f32)),
@@ -306,7 +306,7 @@ fn rounded(value: toml::Value) -> toml::Value {
     }
 }
 
-/// Every key, in the order of a scene file.
+/// All keys, in the order of a scene file.
 #[must_use]
 pub fn all() -> &'static [Key] {
     static ALL: OnceLock<Vec<Key>> = OnceLock::new();
@@ -320,13 +320,13 @@ pub fn all() -> &'static [Key] {
     })
 }
 
-/// The key at a path, for a kind of its table where that matters.
+/// Returns the key at a path, for a kind of its table where that matters.
 #[must_use]
 pub fn find(path: &str, kind: Option<&str>) -> Option<&'static Key> {
     all().iter().find(|key| key.path == path && (kind.is_none() || key.is_of(kind)))
 }
 
-/// The name of a key that is made from others, for the life of the program: the table is made once.
+/// Leaks a derived path to give it a static lifetime; the table is built only once.
 fn named(path: String) -> &'static str {
     Box::leak(path.into_boxed_str())
 }

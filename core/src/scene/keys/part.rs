@@ -1,4 +1,4 @@
-//! Documents as the values of their keys: what they agree in, and the parts that something depends on.
+//! Documents as lists of key values: differences, and the parts that determine a result.
 
 use super::{Affects, Key, all};
 use crate::scene::SceneDoc;
@@ -6,32 +6,32 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::OnceLock;
 use toml::{Table, Value};
 
-/// A key with its value in a document.
+/// A key and its value in a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Leaf {
-    /// The key's place in the table.
+    /// Index of the key in the table.
     index: usize,
-    /// Where it stands, with numbers of entries: `lights[1].size`.
+    /// Path with list indices, e.g. `lights[1].size`.
     pub path: String,
-    /// Its value.
+    /// Value.
     pub value: Value,
 }
 
 impl Leaf {
-    /// The key.
+    /// Returns the key.
     #[must_use]
     pub fn key(&self) -> &'static Key {
         &all()[self.index]
     }
 
-    /// Whether it is what the key's absence means.
+    /// Returns whether the value equals the default of the key.
     #[must_use]
     pub fn is_default(&self) -> bool {
         self.key().default_value().as_ref() == Some(&self.value)
     }
 }
 
-/// Places of keys by their paths.
+/// Indices of keys in the table, by path.
 fn places() -> &'static HashMap<&'static str, Vec<usize>> {
     static PLACES: OnceLock<HashMap<&'static str, Vec<usize>>> = OnceLock::new();
     PLACES.get_or_init(|| {
@@ -43,10 +43,10 @@ fn places() -> &'static HashMap<&'static str, Vec<usize>> {
     })
 }
 
-/// The values of a document, key by key in the order of the table, entry by entry in lists.
+/// Returns the values of a document in the order of the table; lists are ordered by entry.
 ///
 /// # Errors
-/// When a value cannot be written into a scene file.
+/// When a value cannot be represented in a scene file.
 pub fn leaves(doc: &SceneDoc) -> Result<Vec<Leaf>, toml::ser::Error> {
     let mut found = Vec::new();
     if let Value::Table(table) = Value::try_from(doc)? {
@@ -87,7 +87,8 @@ fn walk(table: Table, pattern: &str, path: &str, found: &mut Vec<Leaf>) {
     }
 }
 
-/// Puts a value to its place, making tables and entries on the way. Entries come in their order.
+/// Inserts a value at a path, creating tables and list entries on the way. List entries have to come in
+/// order.
 pub(super) fn put(table: &mut Table, path: &str, value: Value) {
     let Some((first, rest)) = path.split_once('.') else {
         table.insert(path.to_owned(), value);
@@ -113,7 +114,8 @@ pub(super) fn put(table: &mut Table, path: &str, value: Value) {
     }
 }
 
-/// The keys in which two documents differ, in the order of the table; `None` if one of them cannot be written.
+/// Returns the keys in which two documents differ, in the order of the table; `None` if one of them cannot be
+/// serialised.
 #[must_use]
 pub fn changed(a: &SceneDoc, b: &SceneDoc) -> Option<Vec<&'static Key>> {
     let values = |doc| Some(leaves(doc).ok()?.into_iter().map(|l| ((l.index, l.path), l.value)).collect());
@@ -131,8 +133,8 @@ pub fn changed(a: &SceneDoc, b: &SceneDoc) -> Option<Vec<&'static Key>> {
 }
 
 impl SceneDoc {
-    /// The values of some of its keys, everything else at its default. One that cannot be written stays whole: it
-    /// agrees with nothing but itself.
+    /// Keeps the values of some keys and resets all others to their defaults. A document that cannot be
+    /// serialised is returned unchanged, so that it equals only itself.
     fn part(&self, keep: impl Fn(&Key) -> bool) -> Self {
         let Ok(leaves) = leaves(self) else { return self.clone() };
         let mut table = Table::new();
@@ -144,15 +146,15 @@ impl SceneDoc {
         table.try_into().unwrap_or_else(|_| self.clone())
     }
 
-    /// The part that the frozen scene depends on, everything else at its default: two documents that agree in it share
-    /// one frozen scene.
+    /// The part that the frozen scene depends on, all other keys at their defaults: documents with equal
+    /// parts share one frozen scene.
     #[must_use]
     pub fn scene_part(&self) -> Self {
         self.part(Key::is_frozen)
     }
 
-    /// The part that the estimate depends on: two documents that agree in it give the same image after the same number
-    /// of samples. Limits, title and display are left out, and other views.
+    /// The part that the estimate depends on: documents with equal parts give the same image after the same
+    /// number of samples. Excludes limits, title, display and further views.
     #[must_use]
     pub fn render_part(&self) -> Self {
         self.part(|key| {
@@ -160,8 +162,8 @@ impl SceneDoc {
         })
     }
 
-    /// The part that the *expected* image depends on, everything else at its default: documents that agree in it
-    /// converge to the same image under every unbiased estimator.
+    /// The part that the *expected* image depends on, all other keys at their defaults: documents with equal
+    /// parts converge to the same image under every unbiased estimator.
     #[must_use]
     pub fn target_part(&self) -> Self {
         self.part(|key| key.affects == Affects::Scene && !key.path.starts_with("compare."))

@@ -1,4 +1,4 @@
-//! Keys of the phase function: the numbers of every kind are those of [`PhaseDoc::parameters`].
+//! Keys of the phase function; the numbers of each kind are those of [`PhaseDoc::parameters`].
 
 use super::{Default, Key, Range, Type, named};
 use crate::phase::{Parameter, PhaseDoc};
@@ -14,22 +14,28 @@ const OTHERS: [Key; 3] = [
         Type::Choice(&["cosine", "degrees"]),
         Is("\"cosine\""),
         "Angle",
-        "What the points' first numbers are",
+        "Quantity in the first column of the points: cosine or angle",
     )
     .kinds(TABULATED),
-    Key::new("medium.phase.points", Type::Pairs, Is("[]"), "Points", "Angle, rising, and value")
-        .kinds(TABULATED),
+    Key::new(
+        "medium.phase.points",
+        Type::Pairs,
+        Is("[]"),
+        "Points",
+        "Pairs of angle and value, in increasing order of angle",
+    )
+    .kinds(TABULATED),
     Key::new(
         "medium.phase.file",
         Type::File,
         Is("\"\""),
         "File",
-        "A text file that holds the points instead, relative to the scene file",
+        "Text file of the points, relative to the scene file; replaces `points`",
     )
     .kinds(TABULATED),
 ];
 
-/// The row of a number of a phase function.
+/// Returns the key of a phase-function parameter.
 #[must_use]
 pub fn key_of(phase: &PhaseDoc, parameter: &Parameter) -> Option<&'static Key> {
     let place = PhaseDoc::templates().iter().position(|template| template.kind() == phase.kind())?;
@@ -42,7 +48,7 @@ pub(super) fn keys() -> Vec<Key> {
         Type::Choice(KINDS),
         Is("\"isotropic\""),
         "Phase function",
-        "Which way light scatters",
+        "Angular distribution of scattered light",
     );
     let mut keys = vec![kind];
     for (template, kind) in PhaseDoc::templates().iter().zip(KINDS.chunks(1)) {

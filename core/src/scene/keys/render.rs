@@ -22,7 +22,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(POSITIVE),
         NO_LIMIT,
         "Stop after",
-        "Rendering stops after this much time",
+        "Rendering stops after this many seconds",
     )
     .unit("s")
     .cure(LEAVE_OUT)
@@ -32,7 +32,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(POSITIVE),
         NO_LIMIT,
         "CPU time",
-        "Rendering stops after this much CPU time of path tracing, all workers together",
+        "Rendering stops after this many CPU seconds of path tracing, summed over all worker threads",
     )
     .unit("s")
     .cure(LEAVE_OUT)
@@ -42,7 +42,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(POSITIVE),
         NO_LIMIT,
         "Error",
-        "Rendering stops when the root mean square of the standard error is this share of the image's mean",
+        "Rendering stops when the root mean square of the standard error is this fraction of the image's mean",
     )
     .cure("0.01 is one percent of the mean; leave it out for no limit")
     .affects(Affects::Limits),
@@ -51,7 +51,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Integer(SEEDS),
         Is("0"),
         "Seed",
-        "Selects the random numbers; nothing else is random",
+        "Seed of the random numbers; nothing else is random",
     )
     .affects(Affects::Estimate),
     Key::new(
@@ -59,7 +59,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Integer(Range::closed(1.0, 1024.0)),
         Absent("one per core"),
         "Threads",
-        "Worker threads; the picture does not depend on them",
+        "Number of worker threads; the image does not depend on it",
     )
     .cure("leave it out for one per core")
     .affects(Affects::Limits),
@@ -68,7 +68,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Number(Range::closed(-64.0, 64.0)),
         Is("0.0"),
         "Exposure",
-        "shown = 2^EV · radiance. E and Shift + E move it by half a stop",
+        "Displayed value = 2^EV · radiance. E and Shift + E change it by half a stop",
     )
     .unit("EV")
     .affects(Affects::View),
@@ -77,7 +77,7 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["linear", "reinhard", "filmic"]),
         Is("\"filmic\""),
         "Tone curve",
-        "Maps bright radiance into the display's range",
+        "Tone mapping of radiance into the display's range",
     )
     .affects(Affects::View),
     Key::new(

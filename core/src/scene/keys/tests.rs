@@ -1,4 +1,4 @@
-//! Rows held to the documents, and documents to the rows.
+//! Tests that the rows of the table agree with the documents, and the documents with the rows.
 
 use super::{Affects, Default, Key, Range, Type, all, changed, leaves};
 use crate::estimator::{self, REGISTRY};
@@ -7,7 +7,7 @@ use crate::transmittance::TransmittanceKind;
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
-/// A table that keys stand in, with its kind if it has kinds.
+/// A table of a scene file that holds keys, with its kind if it has kinds.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Place {
     path: &'static str,
@@ -39,12 +39,12 @@ fn tables() -> BTreeSet<Place> {
             path = parent(path).trim_end_matches(".*");
         }
     }
-    // The application reads the state of its window.
+    // Window state is read by the application.
     tables.retain(|place| !["lights", "objects", "compare.views", "window"].contains(&place.path));
     tables
 }
 
-/// Keys without which their table is refused, though the table may be absent.
+/// Keys that their table requires, although the table itself may be absent.
 const OPENS: [&str; 3] =
     ["medium.coefficients.kind", "medium.albedo_grid.file", "medium.emission.temperature.file"];
 
@@ -56,7 +56,7 @@ fn put(table: &mut Table, path: &str, value: Value) {
     super::part::put(table, &path.replace(".*", "[0]"), value);
 }
 
-/// Two values that a key allows.
+/// Two valid values of a key.
 fn samples(key: &Key) -> [Value; 2] {
     let number = |range: Range, share: f64| {
         let (low, high) = (range.min.max(-8.0), range.max.min(8.0));
@@ -90,7 +90,7 @@ fn samples(key: &Key) -> [Value; 2] {
     }
 }
 
-/// A document with a table in it, in which there is only what has to be.
+/// A document with a table that holds only its required keys.
 fn minimal(place: &Place) -> Table {
     let mut table = Table::new();
     table.insert("majorant".into(), 1.into());
@@ -100,14 +100,14 @@ fn minimal(place: &Place) -> Table {
         let value = if name == "kind" {
             place.kind.unwrap().into()
         } else {
-            // Where a light stands is not what it faces.
+            // The position of a light must differ from its target.
             samples(key)[usize::from(name == "target")].clone()
         };
         inside.insert(name, value);
     }
     if !place.path.is_empty() {
         let path = place.path.replace(".*", "[0]");
-        // An empty table has to be there, too.
+        // The table has to exist even if it is empty.
         super::part::put(&mut table, &format!("{path}.x"), 0.into());
         let text = toml::to_string(&table).unwrap();
         table = toml::from_str(&text.replace("x = 0\n", "")).unwrap();
@@ -128,7 +128,7 @@ fn expected(message: &str) -> BTreeSet<String> {
     list.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// Earlier names of keys under `window`.
+/// Keys under `window` that were formerly under `compare`.
 const EARLIER: [&str; 4] = ["arrangement", "pair", "layer", "own_zoom"];
 
 #[test]
@@ -188,14 +188,14 @@ fn defaults_are_what_an_absent_key_means() {
     }
 }
 
-/// A document in which a key has a value, and everything else goes with it.
+/// A document in which a key has this value, and all other values are valid with it.
 fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     let mut table = minimal(place);
     put(&mut table, "film.width", 1.into());
     put(&mut table, "film.height", 1.into());
     put(&mut table, key.path, value);
     let mut doc = read(&table)?;
-    // Views by number have to be there.
+    // Views that are referred to by index have to exist.
     while doc.compare.views.len() < 7 && key.path.starts_with("compare.") {
         doc.compare.views.push(doc.contender(0).unwrap());
     }
@@ -205,7 +205,7 @@ fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     }
 }
 
-/// Numbers just inside and just outside of a range.
+/// Numbers just inside and just outside a range.
 fn probes(range: Range) -> ([Option<f32>; 2], [f32; 2]) {
     let [low, high] = [range.min as f32, range.max as f32];
     let inside = [
@@ -278,7 +278,7 @@ fn ranges_are_what_validation_enforces() {
 fn every_choice_parses_and_there_are_no_others() {
     for place in tables() {
         for key in keys_of(&place) {
-            // Which keys go with a kind is in `every_key_has_one_row…`.
+            // Keys by kind are checked in `every_key_has_one_row…`.
             let kinds = key.path.ends_with("kind");
             let values = key.values();
             for value in values.iter().filter(|_| !kinds) {
@@ -310,7 +310,7 @@ fn what_a_key_affects_is_where_it_shows() {
             assert_ne!(a, b, "{name}");
             let found = changed(&a, &b).unwrap();
             assert!(found.len() == 1 && found[0].path == name, "{name}: {found:?}");
-            // What samples are made from, field by field.
+            // Fields that determine samples, one by one.
             let samples = (&a.camera, &a.film, &a.medium, &a.lights, &a.objects, &a.estimator, a.render.seed)
                 != (&b.camera, &b.film, &b.medium, &b.lights, &b.objects, &b.estimator, b.render.seed);
             assert_eq!(samples, matches!(key.affects, Affects::Scene | Affects::Estimate), "{name}");
@@ -328,8 +328,8 @@ fn what_a_key_affects_is_where_it_shows() {
     }
 }
 
-/// Every combination of settings that can bias, under every estimator: what an entry declares is a rule of a key, and
-/// nothing is declared of an unbiased document.
+/// Every combination of settings that can bias, under every estimator: each bias that a registry entry
+/// declares is covered by the rule of a key, and none is declared for an unbiased document.
 #[test]
 fn no_combination_of_settings_biases_a_reference() {
     let mut biased = 0;
@@ -404,7 +404,7 @@ fn parts_and_changes_are_of_the_keys_that_differ() {
     assert_eq!(paths(|d| d.render.threads = Some(3)), ["render.threads"]);
 }
 
-/// The README shows the table as it is.
+/// The README contains the current table.
 #[test]
 fn the_readme_has_every_key() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));

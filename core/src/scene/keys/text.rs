@@ -1,11 +1,11 @@
-//! The table as JSON and as Markdown.
+//! Table of keys as JSON and as Markdown.
 
 use super::check::words;
 use super::{Default, Key, Registry, Type};
 use serde_json::{Value, json};
 
 impl Type {
-    /// Its name in listings.
+    /// Name in listings.
     #[must_use]
     pub fn name(self) -> String {
         match self {
@@ -27,8 +27,9 @@ impl Type {
     }
 }
 
-/// One key as a JSON object: path, type, range, unit, default, label, tip, affects, biases; kind where only some kinds
-/// of its table have it, values where it is a choice. `ids` lists what registries of higher rooms hold.
+/// One key as a JSON object with path, type, range, unit, default, label, tip, affects, biases; with kind
+/// where only some kinds of its table have it, and values where it is a choice. `ids` lists the entries of
+/// registries in higher modules.
 #[must_use]
 pub fn json(key: &Key, ids: &impl Fn(Registry) -> Vec<&'static str>) -> Value {
     let range = key.range().map(|range| json!([range.min, range.max]));
@@ -72,7 +73,7 @@ fn values(key: &Key, ids: &impl Fn(Registry) -> Vec<&'static str>) -> Vec<&'stat
     }
 }
 
-/// What a value looks like, with its range and unit or its choices.
+/// Description of a value: its type, range and unit, or its choices.
 #[must_use]
 pub fn value_in_words(key: &Key, ids: &impl Fn(Registry) -> Vec<&'static str>) -> String {
     let unit = if key.unit.is_empty() { String::new() } else { format!(" {}", key.unit) };
@@ -83,7 +84,7 @@ pub fn value_in_words(key: &Key, ids: &impl Fn(Registry) -> Vec<&'static str>) -
     }
 }
 
-/// Keys as a table in Markdown, without those of views beside the scene's own, which repeat the scene's.
+/// Keys as a Markdown table, without those of further views, which repeat the scene's.
 #[must_use]
 pub fn markdown(keys: &[Key]) -> String {
     let mut text =

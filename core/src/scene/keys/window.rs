@@ -1,4 +1,4 @@
-//! Keys of the window's state, which the application reads.
+//! Keys of the window state, which the application reads.
 
 use super::{Affects, Default, Key, Range, Type};
 use Default::Is;
@@ -13,21 +13,21 @@ pub(super) const KEYS: &[Key] = &[
         Type::Choice(&["grid", "wipe", "flip", "difference"]),
         Is("\"grid\""),
         "Arrangement",
-        "How the views share the window",
+        "Arrangement of the views in the window",
     ),
     key(
         "window.pair",
         Type::Integers(2, Range::closed(0.0, u32::MAX as f64)),
         Is("[0, 1]"),
         "Pair",
-        "The two views of a wipe or difference",
+        "The two views of a wipe or a difference",
     ),
     key(
         "window.layer",
         Type::Text,
         Is("\"picture\""),
         "Layer",
-        "What is shown of every view: `picture`, or a map",
+        "Layer shown for every view: `picture`, or the id of a map",
     ),
-    key("window.own_zoom", Type::Bool, Is("false"), "Own zoom", "Whether every view has a zoom of its own"),
+    key("window.own_zoom", Type::Bool, Is("false"), "Own zoom", "Separate zoom for every view"),
 ];

@@ -1,4 +1,4 @@
-//! Checks of a comparison.
+//! Validation of a comparison.
 
 use super::{Checker, Problem, scene_problems};
 use crate::scene::{MAX_VIEWS, ReferenceDoc, SceneDoc};
@@ -7,7 +7,7 @@ pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     let compare = &doc.compare;
     let count = doc.view_count();
     c.check(count <= MAX_VIEWS, "compare.views", format!("holds more than {} further views", MAX_VIEWS - 1));
-    // What a view has of its own is held to what holds for the scene.
+    // A view's own settings have to satisfy the same rules as the scene's.
     let known = scene_problems(doc);
     for view in 1..count {
         let Some(seen) = doc.view_doc(view) else { continue };
@@ -32,7 +32,7 @@ pub(super) fn compare(c: &mut Checker, doc: &SceneDoc) {
     }
 }
 
-/// Where a view keeps what the scene keeps at `path`.
+/// Path of a view's own key that corresponds to the scene's key at `path`.
 fn own_path(view: usize, path: &str) -> String {
     let path = path.strip_prefix("medium.").or_else(|| path.strip_prefix("render.")).unwrap_or(path);
     format!("compare.views[{}].{path}", view - 1)

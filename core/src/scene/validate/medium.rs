@@ -1,4 +1,4 @@
-//! Checks of what does not go together in the medium.
+//! Validation of combinations of values in the medium.
 
 use super::Checker;
 use crate::phase::{PhaseDoc, check_table};
@@ -7,7 +7,7 @@ use crate::spectrum::{Outside, SpectrumDoc};
 
 pub(super) fn medium(c: &mut Checker, doc: &MediumDoc) {
     if let Some(CoefficientsDoc::MeanFreePathColour { mean_free_path, .. }) = &doc.coefficients {
-        // Paths of length 0 would be an extinction without end.
+        // A mean free path of zero would be an infinite extinction.
         let vanishes = matches!(mean_free_path, SpectrumDoc::Points { outside: Outside::Zero, .. });
         c.check(
             !vanishes,
@@ -24,7 +24,7 @@ pub(super) fn medium(c: &mut Checker, doc: &MediumDoc) {
             c.check(
                 points.is_empty(),
                 "medium.phase.file",
-                "is named beside `points`: leave one of the two out",
+                "and `points` are both given: leave one of the two out",
             );
         }
     }

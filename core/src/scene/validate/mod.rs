@@ -1,4 +1,4 @@
-//! Refuses documents that make no sense, naming the key, the value and the cure.
+//! Validation of documents: problems name the key, the value and the remedy.
 
 mod compare;
 mod medium;
@@ -7,12 +7,12 @@ use super::{LightDoc, SceneDoc, keys};
 use glam::Vec3;
 use std::fmt;
 
-/// A value that makes no sense.
+/// An invalid value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// The key in the document, e.g. `medium.albedo` or `lights[1].size`.
+    /// Key in the document, e.g. `medium.albedo` or `lights[1].size`.
     pub path: String,
-    /// What is wrong, and the cure.
+    /// Description of the problem and its remedy.
     pub message: String,
 }
 
@@ -22,7 +22,8 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The most pixels of a film: 8K. Film, snapshot and preview take about 120 bytes a pixel, 4 GB in all.
+/// Maximum number of pixels of a film: 8K. Film, snapshot and preview take about 120 bytes per pixel, 4 GB in
+/// total.
 pub(super) const MAX_PIXELS: u64 = 7680 * 4320;
 
 #[derive(Default)]
@@ -37,20 +38,20 @@ impl Checker {
         }
     }
 
-    /// Two points that must not coincide.
+    /// Requires that two points do not coincide.
     fn apart(&mut self, path: &str, a: [f32; 3], b: [f32; 3]) {
         let distance = Vec3::from(a).distance(Vec3::from(b));
         let scale = Vec3::from(a).abs().max_element();
         self.check(
             distance > 1e-6 * scale && distance > 1e-9,
             path,
-            "is where the thing itself stands: it has no direction to face; move one of the two",
+            "coincides with the position, which leaves the direction undefined: move one of the two",
         );
     }
 }
 
-/// Every problem of a document, in the order of its keys; whether the estimator exists is
-/// [`crate::estimator::validate`]'s to say.
+/// Returns all problems of a document, in the order of its keys, except for unknown estimators (see
+/// [`crate::estimator::validate`]).
 #[must_use]
 pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     let mut c = Checker { problems: scene_problems(doc) };
@@ -58,15 +59,15 @@ pub fn validate(doc: &SceneDoc) -> Vec<Problem> {
     c.problems
 }
 
-/// Every problem of the scene as its own view sees it: values out of the ranges of their keys, and values that do not
-/// go together.
+/// Problems of the scene without its further views: values out of the ranges of their keys, and invalid
+/// combinations.
 fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
     let mut c = Checker { problems: keys::check(doc) };
     let (width, height) = (doc.film.width, doc.film.height);
     c.check(
         u64::from(width) * u64::from(height) <= MAX_PIXELS,
         "film",
-        format!("{width} × {height} pixels are too many: at most {} million fit", MAX_PIXELS / 1_000_000),
+        format!("{width} × {height} pixels exceed the maximum of {} million", MAX_PIXELS / 1_000_000),
     );
     c.apart("camera.target", doc.camera.target, doc.camera.origin);
     medium::medium(&mut c, &doc.medium);
@@ -77,7 +78,7 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
             }
             LightDoc::EnvironmentMap { file, .. } => {
                 let path = format!("lights[{i}].file");
-                c.check(!file.is_empty(), path, "names no picture: choose an EXR or HDR file");
+                c.check(!file.is_empty(), path, "names no image: choose an EXR or HDR file");
             }
             LightDoc::Sphere { .. } | LightDoc::Sun { .. } | LightDoc::Environment { .. } => {}
         }

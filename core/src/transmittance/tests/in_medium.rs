@@ -4,7 +4,7 @@
 use super::*;
 use crate::math::{BoxRay, Ray};
 use crate::medium::*;
-use crate::spectrum::{Components, Quantity, RgbChannels, Spectrum, SpectrumDoc, WavelengthSampling};
+use crate::spectrum::{Components, Quantity, RgbChannels, Spectrum, SpectrumDoc};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ fn rgb(rgb: [f32; 3]) -> Spectrum {
 
 fn agrees(medium: &impl Medium, what: &str) {
     // The hero is green.
-    let components = RgbChannels::sample(0.5, WavelengthSampling::default());
+    let components = RgbChannels::sample(0.5, None);
     let local = medium.local::<3, _>(&components);
     let direction = Vec3::new(1.0, 0.25, 0.4).normalize();
     let ray = Ray { origin: Vec3::new(-0.5, 0.3, 0.2), direction };

@@ -1,4 +1,4 @@
-//! One event in full: what decided it, and its books at every component.
+//! Details of one event: its random numbers and densities, and the path weights of every component.
 
 use crate::theme::Palette;
 use egui::{Color32, Grid, Label, RichText, ScrollArea, Ui};
@@ -31,7 +31,7 @@ pub(super) fn event_ui(ui: &mut Ui, row: &Row, kept_names: [&str; 3], ledger: &L
     });
 }
 
-/// The numbers that are the same for all components.
+/// Draws the quantities that are common to all components.
 fn story_ui(ui: &mut Ui, row: &Row, ledger: &Ledger) {
     let palette = Palette::get(ui);
     let weak = |ui: &mut Ui, text: String| {
@@ -47,26 +47,26 @@ fn story_ui(ui: &mut Ui, row: &Row, ledger: &Ledger) {
     match (row.step, &row.credit) {
         (_, Some(credit)) => {
             let (technique, nulls) = (credit.technique.name(), credit.nulls);
-            weak(ui, format!("{technique}, scattered {} ×, {nulls} null collisions", credit.order));
+            weak(ui, format!("{technique}, scattering order {}, {nulls} null collisions", credit.order));
             if ledger.credits().all(|credit| credit.by_definition.is_none()) {
-                weak(ui, "its paths have no densities to hold this against".to_owned());
+                weak(ui, "this estimator has no path densities for comparison".to_owned());
             }
         }
         (Step::Leave(value, density), _) => {
             weak(
                 ui,
-                format!("phase function or cosine lobe {value:.5}, drawn with density {density:.5} /sr"),
+                format!("phase function or cosine lobe {value:.5}, sampled with density {density:.5} /sr"),
             );
         }
         (Step::Connect(value, walk, light), _) => {
-            weak(ui, format!("phase function {value:.5}, the walk's density {walk:.5} /sr"));
-            weak(ui, format!("the light's density {light:.5} /sr"));
+            weak(ui, format!("phase function {value:.5}, density of unidirectional sampling {walk:.5} /sr"));
+            weak(ui, format!("density of light sampling {light:.5} /sr"));
         }
         _ => {}
     }
 }
 
-/// What differs between components: a name, and a number for each.
+/// Rows of the table: a name and a value for each component.
 fn lines<'a>(row: &Row, kept_names: [&'a str; 3], count: usize) -> Vec<(&'a str, Vec<String>)> {
     let numbers = |values: &[f32]| values[..count].iter().map(|v| short(*v)).collect::<Vec<_>>();
     let mut lines: Vec<(&str, Vec<String>)> = [("f", &row.f), ("p uni", &row.uni), ("p nee", &row.nee)]
@@ -77,7 +77,7 @@ fn lines<'a>(row: &Row, kept_names: [&'a str; 3], count: usize) -> Vec<(&'a str,
         lines.extend(named.map(|(name, values)| (name, numbers(values))));
     }
     if let Some(credit) = &row.credit {
-        lines.push(("light", numbers(&credit.emitted)));
+        lines.push(("emitted", numbers(&credit.emitted)));
         lines.push(("added", numbers(&credit.value)));
         lines.extend(credit.by_definition.iter().map(|values| ("Le f / mean p", numbers(values))));
     } else if let Some(found) = &row.found {
@@ -89,7 +89,7 @@ fn lines<'a>(row: &Row, kept_names: [&'a str; 3], count: usize) -> Vec<(&'a str,
     lines
 }
 
-/// Names of the components, the hero first.
+/// Names of the components, hero first.
 fn components(carried: &Carried) -> Vec<String> {
     match carried {
         Carried::Wavelengths(nm, n) => nm[..*n].iter().map(|nm| format!("{nm:.0} nm")).collect(),
@@ -100,7 +100,7 @@ fn components(carried: &Carried) -> Vec<String> {
     }
 }
 
-/// Five significant digits, whatever the size.
+/// Formats a number with four decimals, or in scientific notation if it is very small or large.
 fn short(value: f32) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
@@ -109,7 +109,7 @@ fn short(value: f32) -> String {
     }
 }
 
-/// The colour of an event, in space and in the table.
+/// Colour of an event, in the 3D view and in the table.
 pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
     match (row.step, row.branch) {
         (Step::Credit, _) => palette.warning,

@@ -1,4 +1,4 @@
-//! The ledger: event by event what the path contributes and how likely it is, and what light that adds.
+//! Event table of a path: contribution f, probability densities and added radiance after every event.
 
 use super::super::Cx;
 use super::event::{colour, event_ui};
@@ -16,7 +16,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let state = &mut cx.inspector.path;
     state.step = state.step.min(ledger.rows.len().saturating_sub(1));
     let (step, mut clicked) = (state.step, None);
-    // The chosen event in full stands below the table.
+    // The details of the selected event are below the table.
     let detail = (0.45 * ui.available_height()).clamp(5.0 * height, 10.0 * height);
     ui.spacing_mut().item_spacing.x = 4.0;
     let room = (ui.available_height() - detail - 2.0 * height).max(40.0);
@@ -40,14 +40,14 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
             .header(height, |mut header| {
                 let names = [
                     ("", ""),
-                    ("event", "Indented: on a connection, or a walk that only meets light"),
-                    ("f", "What the path contributes, at its hero: a product over its events"),
-                    ("p uni", "How likely unidirectional sampling makes it"),
+                    ("event", "Indented: on a shadow connection, or on a walk that only evaluates emission"),
+                    ("f", "Contribution of the path at its hero wavelength: a product over its events"),
+                    ("p uni", "Probability density of the path under unidirectional sampling"),
                     (
                         "p nee",
-                        "How likely next-event estimation makes it; at a vertex without the light's density",
+                        "Probability density of the path under next-event estimation; at a vertex, without the density of the light",
                     ),
-                    ("adds", "Light that is added to the estimate, as linear sRGB grey"),
+                    ("adds", "Radiance added to the estimate, mean of linear sRGB"),
                 ];
                 for (name, tip) in names {
                     header.col(|ui| {

@@ -1,4 +1,4 @@
-//! The samples of a pixel by what they contribute, and the pixel that stands out.
+//! Samples of a pixel sorted by radiance, and the search for an outlier pixel.
 
 use super::super::Cx;
 use crate::theme::Palette;
@@ -6,10 +6,10 @@ use crate::wall::Wall;
 use egui::{Button, RichText, ScrollArea, Ui};
 use majorant_core::film::Snapshot;
 
-/// So many are listed: nobody reads more.
+/// Maximum number of listed samples.
 const LISTED: usize = 400;
 
-/// Numbers and greys of the selected view's samples of a pixel, the brightest first.
+/// Indices and mean radiances of the selected view's samples of a pixel, brightest first.
 pub(super) fn sorted(wall: &Wall, pixel: [usize; 2]) -> Vec<(u64, f32)> {
     let analysis = wall.analysis();
     let Some((at, views)) = &analysis.pixel else { return Vec::new() };
@@ -47,7 +47,7 @@ pub(super) fn list_ui(ui: &mut Ui, cx: &mut Cx<'_>, pixel: [usize; 2], samples: 
     });
 }
 
-/// The pixel of the selected view that stands out most, in standard errors' size, from the eight around it.
+/// Pixel of the selected view that exceeds the median of its eight neighbours by most.
 pub(super) fn outlier(wall: &Wall) -> Option<[usize; 2]> {
     outlier_of(wall.selected_slot()?.picture()?)
 }

@@ -1,6 +1,6 @@
-//! One path, replayed with the random numbers that it had: its samples to choose from, the path in space, and its books.
+//! Replay of one path with its random numbers: list of samples, 3D view of the path, and table of path weights.
 //!
-//! The three sides show the same step: choosing an event in one marks it in the others.
+//! All three show the same event: selecting an event in one marks it in the others.
 
 mod event;
 mod events;
@@ -20,7 +20,7 @@ use majorant_core::spectrum::Carried;
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// See the [module](self).
+/// Tab of the replayed path.
 pub struct Path;
 
 impl Tab for Path {
@@ -69,14 +69,14 @@ impl Tab for Path {
         }
         let samples = list::sorted(cx.wall, pixel);
         if samples.is_empty() {
-            return empty(ui, "The pixel's samples are being traced again.");
+            return empty(ui, "The samples of the pixel are being retraced.");
         }
         let chosen = cx.inspector.path.sample.unwrap_or(samples[0].0);
         cx.inspector.path.sample = Some(chosen);
         let replayed = replay(cx, Some(ui.ctx().clone()));
         bar_ui(ui, cx, pixel, chosen, replayed.as_deref());
         let room = ui.available_rect_before_wrap();
-        // The books come first: what does not fit beside them is left out.
+        // The table of path weights takes precedence: list and 3D view are omitted in narrow windows.
         let (narrow, alone) = (room.width() < 620.0, room.width() < 480.0);
         let list_width = if narrow { 0.0 } else { 138.0 };
         let ledger_width = if alone { room.width() } else { (0.57 * (room.width() - list_width)).max(300.0) };
@@ -86,7 +86,7 @@ impl Tab for Path {
             list::list_ui(&mut part(ui, left.with_max_x(left.right() - 6.0)), cx, pixel, &samples, chosen);
         }
         let Some(replayed) = replayed else {
-            return empty(&mut part(ui, rest), "The path is being traced again.");
+            return empty(&mut part(ui, rest), "The path is being retraced.");
         };
         keys(ui, cx, replayed.ledger.rows.len());
         if !alone {
@@ -106,16 +106,16 @@ fn part(ui: &mut Ui, rect: egui::Rect) -> Ui {
     part
 }
 
-/// What to do, and where it is worth while.
+/// Draws the instructions shown while no pixel is picked.
 fn invitation(ui: &mut Ui, cx: &mut Cx<'_>) {
-    empty(ui, "Click a pixel of a picture: its paths are traced again, event by event.");
+    empty(ui, "Click a pixel of an image to retrace its paths, event by event.");
     ui.add_space(6.0);
     ui.vertical_centered(|ui| {
         let outlier = list::outlier(cx.wall);
         let button = Button::new("Take the brightest outlier");
         let response = ui
             .add_enabled(outlier.is_some(), button)
-            .on_hover_text("The pixel that stands out most from those around it: a firefly, if there is one");
+            .on_hover_text("The pixel that exceeds its neighbours by most: a firefly, if there is one");
         if response.clicked()
             && let Some(pixel) = outlier
         {
@@ -124,7 +124,7 @@ fn invitation(ui: &mut Ui, cx: &mut Cx<'_>) {
     });
 }
 
-/// The path at hand; worked out anew if `wake` is given and anything has changed.
+/// Returns the replayed path. It is retraced if its inputs have changed and `wake` is given.
 fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>> {
     let view = cx.wall.selected();
     let slot = cx.wall.selected_slot()?;
@@ -155,7 +155,7 @@ fn replay(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Replayed>>
     answer.filter(|(_, current)| *current).map(|(replayed, _)| replayed)
 }
 
-/// What is shown, the way through its events, and the estimator that is given its random numbers.
+/// Draws the title, the event navigation and the choice of the estimator that uses the path's random numbers.
 fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replayed: Option<&Replayed>) {
     let palette = Palette::get(ui);
     let view = cx.wall.selected();
@@ -198,7 +198,7 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
         });
         combo.response.accessible_name("Replay under");
         if replayed.is_some_and(|replayed| !replayed.recording.complete) {
-            let text = "cut off: a path this long is not kept whole";
+            let text = "truncated: the path is too long to be recorded completely";
             ui.label(RichText::new(text).small().color(palette.warning));
         }
         if let Some(replayed) = replayed {
@@ -211,12 +211,12 @@ fn bar_ui(ui: &mut Ui, cx: &mut Cx<'_>, [x, y]: [usize; 2], sample: u64, replaye
                 film.z
             );
             ui.label(RichText::new(text).small().color(palette.weak))
-                .on_hover_text("What the path carries, and what the film has received from it (linear sRGB)");
+                .on_hover_text("Components of the path, and its contribution to the film (linear sRGB)");
         }
     });
 }
 
-/// `[` and `]` go through the events.
+/// Handles the keys `[` and `]`, which step through the events.
 fn keys(ui: &Ui, cx: &mut Cx<'_>, rows: usize) {
     if ui.ctx().text_edit_focused() {
         return;
@@ -231,7 +231,7 @@ fn keys(ui: &Ui, cx: &mut Cx<'_>, rows: usize) {
     }
 }
 
-/// "543 nm and 3 more", "red, green, blue".
+/// Components of a path, such as "543, 623, 703, 463 nm" or "red, green, blue".
 fn carried(carried: &Carried) -> String {
     match carried {
         Carried::Wavelengths(nm, n) => {
@@ -242,6 +242,6 @@ fn carried(carried: &Carried) -> String {
             let names = ["red", "green", "blue"];
             channels[..*n].iter().map(|c| names[*c as usize]).collect::<Vec<_>>().join(", ")
         }
-        Carried::Grey => "all colours alike".to_owned(),
+        Carried::Grey => "all colours".to_owned(),
     }
 }

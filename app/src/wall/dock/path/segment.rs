@@ -1,4 +1,4 @@
-//! What the chosen event's ray leads through: extinction, majorant, and the collisions along it.
+//! Plot of extinction, majorant and collisions along the ray of the selected event.
 
 use super::super::Cx;
 use super::event::colour;
@@ -13,20 +13,20 @@ use majorant_core::transmittance::TransmittanceKind;
 use majorant_core::transport::{CancelToken, Note};
 use std::sync::Arc;
 
-/// Height of the strip.
+/// Height of the plot, in points.
 pub(super) const HEIGHT: f32 = 64.0;
 
-/// The ray that an event lies on, with the note that began it.
+/// Ray of an event, with the index of the note at which it begins.
 fn ray_of(replayed: &Replayed, note: usize) -> Option<(usize, Ray)> {
     replayed.recording.notes[..=note].iter().enumerate().rev().find_map(|(i, told)| match told {
         Note::Camera { ray, .. } | Note::Connect { ray, .. } => Some((i, *ray)),
-        // A path that leaves its vertex flies along its new ray from the next event on.
+        // The new ray of a vertex applies from the next event on.
         Note::Leave { ray, .. } if i < note => Some((i, *ray)),
         _ => None,
     })
 }
 
-/// Draws the strip of the chosen event, worked out when its ray changes.
+/// Draws the plot of the selected event; its curves are recomputed when the ray changes.
 pub(super) fn segment_ui(ui: &Ui, cx: &mut Cx<'_>, replayed: &Arc<Replayed>, rect: Rect) {
     let palette = Palette::get(ui);
     let painter = ui.painter_at(rect);
@@ -55,7 +55,7 @@ pub(super) fn segment_ui(ui: &Ui, cx: &mut Cx<'_>, replayed: &Arc<Replayed>, rec
         painter.text(corner, Align2::LEFT_TOP, "this ray misses the medium", font, palette.weak);
         return;
     };
-    painter.text(corner, Align2::LEFT_TOP, "extinction and majorant along its ray", font, palette.weak);
+    painter.text(corner, Align2::LEFT_TOP, "extinction and majorant along the ray", font, palette.weak);
     let largest = bench.majorants.iter().map(|m| m[2]).fold(f32::MIN_POSITIVE, f32::max);
     let inner = rect.shrink2(egui::vec2(6.0, 4.0)).with_min_y(rect.top() + 16.0);
     let at = |t: f32, value: f32| -> Pos2 {
@@ -71,7 +71,7 @@ pub(super) fn segment_ui(ui: &Ui, cx: &mut Cx<'_>, replayed: &Arc<Replayed>, rec
     }
     let line = bench.extinction.iter().map(|[t, mu]| at(*t, *mu)).collect();
     painter.add(Shape::line(line, Stroke::new(1.4, palette.accent)));
-    // Events of the same ray, the chosen one with a ring.
+    // Events of the same ray, the selected one circled.
     for (i, event) in replayed.ledger.rows.iter().enumerate() {
         let (Some(point), Some(found)) = (event.point, &event.found) else { continue };
         if ray_of(replayed, event.note).is_some_and(|(other, _)| other == began) {

@@ -1,4 +1,4 @@
-//! The path in space: box, lights, events by kind; turned by dragging.
+//! 3D view of a path: bounding box of the medium, lights, and events by kind. Dragging orbits the view.
 
 use super::super::Cx;
 use super::event::colour;
@@ -13,10 +13,10 @@ use majorant_core::inspect::{Branch, Row, Step};
 use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc};
 use majorant_core::transport::Note;
 
-/// Places along a line where its visible part may begin.
+/// Number of steps in the search for the visible part of a line.
 const STEPS: u8 = 64;
 
-/// The picture of space: what projects, and what is drawn with.
+/// Projection and painter of the 3D view.
 struct Eye<'a> {
     camera: Camera,
     rect: Rect,
@@ -30,10 +30,10 @@ impl Eye<'_> {
         at.is_finite().then(|| self.rect.min + vec2(at.x, at.y))
     }
 
-    /// What is before the eye of a line, from end to end on the screen.
+    /// Screen end points of the part of a line in front of the camera.
     fn seen_part(&self, a: Vec3, b: Vec3) -> Option<[Pos2; 2]> {
         let near = |end: Vec3, other: Vec3| {
-            // The end itself, or the point closest to it that is seen.
+            // The end point itself, or the visible point closest to it.
             (0..=STEPS).find_map(|i| self.see(end.lerp(other, f32::from(i) / f32::from(STEPS))))
         };
         Some([near(a, b)?, near(b, a)?])
@@ -89,7 +89,7 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
         eye.mark(row);
     }
     eye.legend();
-    // An event is chosen where it is seen.
+    // A click selects the nearest event.
     if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked()) {
         let near =
             |row: &Row| row.point.and_then(|p| eye.see(p)).map_or(f32::INFINITY, |seen| seen.distance(at));
@@ -101,18 +101,19 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
             (state.step, state.scroll) = (i, true);
         }
     }
-    response
-        .on_hover_text_at_pointer("Drag to turn, scroll to come closer, click an event; double-click: back");
+    response.on_hover_text_at_pointer(
+        "Drag to orbit, scroll to zoom, click to select an event, double-click to reset",
+    );
 }
 
-/// Middle and size of the medium.
+/// Centre and diagonal of the medium's bounding box.
 fn extent(scene: &Scene) -> (Vec3, f32) {
     let world = scene.medium_from_world.inverse();
     let size = world.transform_vector3(Vec3::ONE).length();
     (world.transform_point3(Vec3::splat(0.5)), size)
 }
 
-/// From the side of the scene's camera, a little higher, so that the camera's ray is seen.
+/// Initial camera: beside the scene's camera and slightly higher, so that the camera ray is visible.
 fn first_look(doc: &SceneDoc, center: Vec3, size: f32) -> CameraDoc {
     let up = Vec3::from(doc.camera.up).normalize_or(Vec3::Y);
     let back = (Vec3::from(doc.camera.origin) - center).normalize_or(Vec3::Z);
@@ -127,7 +128,7 @@ fn first_look(doc: &SceneDoc, center: Vec3, size: f32) -> CameraDoc {
 }
 
 impl Eye<'_> {
-    /// The edges of the medium's box.
+    /// Draws the edges of the medium's bounding box.
     fn medium(&self, scene: &Scene) {
         let world = scene.medium_from_world.inverse();
         self.frame(|unit| world.transform_point3(unit), Stroke::new(1.0, self.palette.line));
@@ -144,7 +145,7 @@ impl Eye<'_> {
         }
     }
 
-    /// Lights with a place as outlines, distant ones as arrows.
+    /// Draws rectangle and sphere lights as outlines, and suns as arrows.
     fn lights(&self, doc: &SceneDoc, center: Vec3, size: f32) {
         let stroke = Stroke::new(1.4, Color32::from_rgb(236, 190, 60));
         for light in &doc.lights {
@@ -181,7 +182,7 @@ impl Eye<'_> {
         }
     }
 
-    /// Rays between events, and the events themselves.
+    /// Draws the path's segments, connections and events.
     fn path(&self, replayed: &Replayed, center: Vec3, size: f32) {
         let ledger = &replayed.ledger;
         let strong = Stroke::new(1.6, self.palette.text);
@@ -194,7 +195,7 @@ impl Eye<'_> {
                 last = Some(point);
             }
         }
-        // A walk that leaves goes on to a light, or to nowhere.
+        // A path that is not absorbed continues out of the medium.
         if let (Some(from), Some(direction)) = (last, last_direction(replayed))
             && ledger
                 .rows
@@ -232,7 +233,7 @@ impl Eye<'_> {
         }
     }
 
-    /// The majorant's cell of the chosen event.
+    /// Draws the majorant cell that contains the selected event.
     fn cell(&self, scene: &Scene, row: &Row) {
         let (Some(cells), Some(point)) = (scene.medium.majorant_cells(), row.point) else { return };
         let n = cells.cells() as f32;
@@ -246,7 +247,7 @@ impl Eye<'_> {
         self.frame(|within| world.transform_point3((corner + within) / n), stroke);
     }
 
-    /// The phase function at the chosen vertex, in the plane of the screen's right and the direction of flight.
+    /// Draws the phase function at the selected vertex, in the plane of the incident direction that faces the camera.
     fn lobe(&self, scene: &Scene, replayed: &Replayed, row: &Row, size: f32) {
         if !matches!(row.step, Step::Scatter | Step::Leave(..) | Step::Connect(..)) {
             return;
@@ -258,7 +259,7 @@ impl Eye<'_> {
         let angles: Vec<f32> = (0..=96u8).map(|i| f32::from(i) * std::f32::consts::TAU / 96.0).collect();
         let largest = angles.iter().map(|a| scene.phase.value(a.cos())).fold(f32::MIN_POSITIVE, f32::max);
         let outline = angles.iter().filter_map(|angle| {
-            // Three decades below the peak, as in the panel.
+            // Logarithmic over three decades below the peak, as in the panel.
             let radius = (1.0 + (scene.phase.value(angle.cos()) / largest).max(1e-9).log10() / 3.0).max(0.0);
             let direction = arrived * angle.cos() + across * angle.sin();
             self.see(point + direction * (radius * 0.22 * size))
@@ -293,7 +294,7 @@ impl Eye<'_> {
     }
 }
 
-/// The direction in which a path flew before one of its notes.
+/// Direction of the path segment that precedes a note.
 fn direction_before(replayed: &Replayed, note: usize) -> Option<Vec3> {
     replayed.recording.notes[..note].iter().rev().find_map(|note| match note {
         Note::Camera { ray, .. } | Note::Leave { ray, .. } => Some(ray.direction),

@@ -28,11 +28,8 @@ pub(super) fn read(name: &str, cursor: &mut Cursor) -> Result<DAffine3, Fault> {
     };
     let determinant = world_from_index.matrix3.determinant();
     if !world_from_index.is_finite() || !determinant.is_normal() {
-        return Err(Fault::invalid(
-            at,
-            format!("its {name} is not invertible (determinant {determinant})"),
-        )
-        .with_cure("Set a voxel size above zero and save the grid again"));
+        return Err(Fault::invalid(at, format!("its {name} is not invertible (determinant {determinant})"))
+            .with_cure("Set a voxel size above zero and save the grid again"));
     }
     Ok(world_from_index)
 }

@@ -1,4 +1,4 @@
-//! `majorant parts`: an image taken apart.
+//! `majorant contributions`: separation of an image into contributions.
 
 use super::{Failure, print_line, source};
 use majorant_core::inspect::Split;
@@ -8,21 +8,24 @@ use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
-Every path is traced as for the image, and what it adds is sorted. The parts sum to the image; the shares
-of the variance of one sample, Cov(part, image) / Var(image), sum to one. A share below zero is a part that
-is bright where the others are dark.
+Every path is traced as for the image, and its contributions are sorted by technique, scattering order, number of
+null collisions or hero wavelength. The contributions sum to the image; their shares of the variance of one sample,
+Cov(contribution, image) / Var(image), sum to one. A contribution with a negative share is bright where the others
+are dark.
 
---json prints one line: by, spp, and parts with name, mean [r,g,b] and variance_share.")]
+--json prints one line: by, spp, and parts (the contributions) with name, mean [r,g,b] and variance_share.
+
+`majorant parts` is an alias of this command.")]
 pub(super) struct Arguments {
     #[command(flatten)]
     traced: source::Traced,
-    /// technique, order, nulls or hero.
+    /// Criterion: technique, order, nulls or hero.
     #[arg(long, value_name = "WHAT", default_value = "technique", value_parser = parse_split)]
     by: Split,
     /// Samples per pixel.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u64).range(2..))]
     spp: u64,
-    /// A directory for a picture of each part, as shown.
+    /// Directory for a tone-mapped image of each contribution.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print one line of JSON.
@@ -33,7 +36,7 @@ pub(super) struct Arguments {
 fn parse_split(text: &str) -> Result<Split, String> {
     let known: Vec<_> = Split::ALL.iter().map(|split| split.id()).collect();
     let found = Split::ALL.into_iter().find(|split| split.id() == text);
-    found.ok_or_else(|| format!("`{text}` is none of {}", known.join(", ")))
+    found.ok_or_else(|| format!("`{text}` is not one of {}", known.join(", ")))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -67,7 +70,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let Some(directory) = &arguments.output else { return Ok(()) };
     std::fs::create_dir_all(directory).map_err(|e| {
-        Failure::Message(format!("{}: {e}; name a place that can be written", directory.display()))
+        Failure::Message(format!("{}: {e}; choose a writable directory", directory.display()))
     })?;
     for layer in &parts.layers {
         let path = directory.join(format!("{}.png", layer.name.replace(' ', "-")));
