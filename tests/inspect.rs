@@ -81,14 +81,14 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
                 let ledger = Ledger::new(&recording);
                 assert_eq!(bits(ledger.film.to_array()), bits(alone.rgb.to_array()), "film: {what}");
                 assert_eq!(ledger.added().map(f32::to_bits), ledger.sum.map(f32::to_bits), "sum: {what}");
-                for credit in ledger.credits() {
+                for contribution in ledger.contributions() {
                     entries += 1;
-                    let Some(by_definition) = credit.by_definition else { continue };
+                    let Some(by_definition) = contribution.by_definition else { continue };
                     defined[which] += 1;
-                    let largest = credit.value.iter().fold(0.0f32, |l, v| l.max(v.abs()));
-                    for (value, defined) in credit.value.iter().zip(by_definition) {
+                    let largest = contribution.value.iter().fold(0.0f32, |l, v| l.max(v.abs()));
+                    for (value, defined) in contribution.value.iter().zip(by_definition) {
                         let tolerance = 2e-3 * value.abs() + 1e-5 * largest + 1e-30;
-                        assert!((value - defined).abs() <= tolerance, "{what}: {credit:?}");
+                        assert!((value - defined).abs() <= tolerance, "{what}: {contribution:?}");
                     }
                 }
             }
@@ -160,7 +160,7 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                     let what = format!("{name}, {}, {at:?}, row {i}: {row:?}", entry.id);
                     if row.branch == Branch::Path {
                         match row.step {
-                            Step::Leave(..) => turned = true,
+                            Step::Direction(..) => turned = true,
                             Step::Scatter | Step::Reflect => turned = false,
                             _ => {}
                         }
@@ -177,7 +177,7 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                     let on_a_flight = matches!(row.step, Step::Collision | Step::Null | Step::Absorb)
                         || !matches!(recording.notes[row.note], Note::Flight { .. })
                             && matches!(row.step, Step::Scatter | Step::Exit);
-                    if throughput && on_a_flight || row.branch == Branch::Angle {
+                    if throughput && on_a_flight || row.branch == Branch::Equiangular {
                         continue;
                     }
                     for (number, values) in kept.names.iter().zip(&kept.values) {

@@ -229,7 +229,7 @@ fn outgoing<const N: usize, W: WalkWeights<N>>(
 ) {
     term.p *= f64::from(outgoing.density);
     term.scale([f64::from(outgoing.value); N]);
-    weights.leave(outgoing);
+    weights.choose_direction(outgoing);
 }
 
 /// What all makers add for a path, over f, per component in the order of hero 0.
@@ -399,15 +399,15 @@ impl<M: Medium> Setup<'_, M> {
                 let (_, inside, segment) = segment_at(&world, &scattering.ray, step.t).unwrap();
                 let place = Place { point, inside, segment: &segment };
                 let collision = place.collide(&world.medium, EventRule::from(&world.settings), Part::Whole);
-                link.scatter_by_angle(&collision, by_angle);
+                link.scatter_equiangular(&collision, by_angle);
                 let aim = nee / choice(point);
                 let densities = LightDensities { nee, eq: aim };
-                let mut link = link.connect_by_angle(&towards, densities);
+                let mut link = link.connect_equiangular(&towards, densities);
                 term.p *= f64::from(by_angle) * f64::from(aim);
                 term.scale(collision.coefficients.scattering.0.map(f64::from));
                 term.scale([f64::from(towards.value); N]);
                 by_ratio(&world, after, &mut term, &mut link).unwrap();
-                all.add(hero, &term, link.connected_by_angle(Sampled::ONE, heuristics));
+                all.add(hero, &term, link.connected_equiangular(Sampled::ONE, heuristics));
             }
             if walk(&world, scattering, &mut term, &mut weights).is_none() {
                 continue;

@@ -6,11 +6,11 @@ use majorant_core::io::scene_file::{load, override_keys, parse, save, to_toml};
 use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
-    Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, ContenderDoc, DensityDoc,
-    DirectionSampling, DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef,
-    Heuristic, Heuristics, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId,
-    MediumDoc, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve,
-    Tracking, ViewDoc, WhenExceeded,
+    Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, DensityDoc, DirectionSampling,
+    DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics,
+    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc,
+    PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides,
+    WhenExceeded,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -100,7 +100,7 @@ fn everything() -> SceneDoc {
         },
         view: ViewDoc { exposure_ev: -1.5, tone: ToneCurve::Reinhard, gamma: Some(2.2) },
         compare: CompareDoc {
-            views: vec![ContenderDoc {
+            views: vec![ViewOverrides {
                 estimator: EstimatorDoc {
                     max_depth: Some(2),
                     roulette_depth: None,

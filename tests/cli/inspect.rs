@@ -1,4 +1,4 @@
-//! `majorant path` and `majorant parts`.
+//! `majorant path` and `majorant contributions`.
 
 use super::{fails, succeeds};
 use serde_json::Value;
@@ -71,7 +71,8 @@ fn an_image_is_taken_apart_into_files_and_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().to_str().unwrap();
     let small = ["--set", "film.width=32", "film.height=24", "--spp", "8"];
-    let parts = [&["parts", "cloud-sidelit", "--by", "technique", "-o", out, "--json"], &small[..]].concat();
+    let parts =
+        [&["contributions", "cloud-sidelit", "--by", "technique", "-o", out, "--json"], &small[..]].concat();
     let json = json(&parts);
     let shares: Vec<_> =
         json["parts"].as_array().unwrap().iter().map(|p| p["variance_share"].as_f64().unwrap()).collect();
@@ -80,7 +81,8 @@ fn an_image_is_taken_apart_into_files_and_numbers() {
         assert!(directory.path().join(name).metadata().unwrap().len() > 100, "{name}");
     }
     assert!(
-        succeeds(&[&["parts", "cloud-sidelit", "--by", "order"], &small[..]].concat()).contains("8 and more")
+        succeeds(&[&["contributions", "cloud-sidelit", "--by", "order"], &small[..]].concat())
+            .contains("8 and more")
     );
 }
 

@@ -111,7 +111,7 @@ fn an_image_is_taken_apart_every_way() {
         assert!(!parts.layers.is_empty());
         lab.check_accessibility();
     }
-    click(&mut lab, Role::Button, "Parts as weights");
+    click(&mut lab, Role::Button, "Contributions as weights");
     assert!(lab.state().inspector().parts.hung_as_shares);
     click(&mut lab, Role::Button, "Play");
     assert!(lab.state().inspector().parts.playing.is_some());
@@ -171,7 +171,7 @@ fn a_fault_is_announced_compared_with_the_correct_image_and_found() {
         lab.check_accessibility();
     }
     choose(&mut lab, "Algorithm 4 as printed");
-    lab.state_mut().request(Command::HoldAgainstRight);
+    lab.state_mut().request(Command::CompareWithCorrect);
     lab.run_steps(3);
     let ids: Vec<_> =
         doc(&lab).view_docs().iter().map(|d| (d.estimator.id.clone(), d.estimator.fault)).collect();

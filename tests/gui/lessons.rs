@@ -39,7 +39,7 @@ fn every_lesson_is_played_through_by_keyboard() {
                 lab.run_steps(2);
                 assert_eq!(lab.state().lesson().map(|p| p.step), Some(i), "{what}: predict first");
                 choose(&mut lab, right);
-                assert!(lab.query_by_label_contains("So it is.").is_some(), "{what}");
+                assert!(lab.query_by_label_contains("Correct. The next step shows it.").is_some(), "{what}");
             }
             lab.key_press(Key::PageDown);
             lab.run_steps(3);
@@ -88,7 +88,7 @@ fn numbers_in_a_lesson_are_those_of_the_lab() {
     lab.state_mut().request(Command::OpenLesson(embedded()[0].id.clone()));
     lab.run_steps(3);
     lab.state_mut().request(Command::AnswerLesson(2));
-    lab.state_mut().request(Command::TurnLesson(1));
+    lab.state_mut().request(Command::StepLesson(1));
     lab.run_steps(3);
     wait(&mut lab, "the ray", |app| {
         let bench = app.inspector().ray.query.newest();

@@ -9,7 +9,7 @@ use majorant::model::Command;
 use majorant::model::Source;
 use majorant::model::WallEdit;
 use majorant::view::tone_mapper::PictureId;
-use majorant_core::compare::{Against, LEAST_SAMPLES, Verdict, label};
+use majorant_core::compare::{ComparedWith, LEAST_SAMPLES, Verdict, label};
 use majorant_core::scene::{Fault, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
 use majorant_core::transport::CancelToken;
@@ -70,7 +70,7 @@ fn assert_current(app: &LabApp) {
         assert!(standing.spp <= picture.spp, "{} samples of {}", standing.spp, picture.spp);
         let uploaded = wall.uploaded(PictureId::View(view)).and_then(|h| h.snapshot.as_ref());
         assert!(uploaded.is_none_or(|h| h.generation == picture.generation), "an older picture hangs");
-        if let Against::Others(others) = &standing.against {
+        if let ComparedWith::Others(others) = &standing.against {
             for other in others.split(", ") {
                 assert!(wall.analysis().standing(other).is_some(), "{other} has no numbers of its own");
             }
@@ -238,7 +238,9 @@ fn without_a_reference_variance_and_efficiency_stand_where_errors_would() {
     lab.key_press(Key::Escape);
     watch(&mut lab, "errors", |app| app.wall().analysis().standings.iter().all(|s| !s.errors.is_empty()));
     lab.run_steps(2);
-    lab.get_by_label_contains("against the mean of the other unbiased views, whose noise is taken off");
+    lab.get_by_label_contains(
+        "against the mean of the other unbiased views, corrected for the noise of that mean",
+    );
     assert!(labels(&lab, "relMSE") >= 3 && labels(&lab, "±") >= 4);
     for s in &lab.state().wall().analysis().standings {
         let error = s.error("relmse").expect("an error");
@@ -266,7 +268,7 @@ fn nothing_is_measured_against_a_picture_without_samples() {
     lab.key_press(Key::P);
     watch(&mut lab, "errors", |app| app.wall().analysis().standings.iter().all(|s| !s.errors.is_empty()));
     watch(&mut lab, "the reference's end", |app| reference(app) == Some(Status::Finished));
-    let against = Against::Reference("Uni+NEE MIS, 400 spp".into());
+    let against = ComparedWith::Reference("Uni+NEE MIS, 400 spp".into());
     watch(&mut lab, "the last numbers", |app| {
         let shown = app.wall().uploaded(PictureId::Reference).and_then(|h| h.reference.as_ref());
         app.wall().analysis().standings.iter().all(|s| s.against == against)
@@ -306,14 +308,15 @@ fn no_view_shares_random_numbers_with_the_reference() {
     assert!(![first, first + 1].contains(&seed(&lab)));
     watch(&mut lab, "errors", |app| {
         let standings = &app.wall().analysis().standings;
-        standings.len() == 2 && standings.iter().all(|s| matches!(s.against, Against::Reference(_)))
+        standings.len() == 2 && standings.iter().all(|s| matches!(s.against, ComparedWith::Reference(_)))
     });
     // A view that is the reference has another: the one that shares it is not held against it.
     edit(&mut lab, |doc| doc.compare.views[0].seed = first);
     wall(&mut lab, WallEdit::Reference(ReferenceDoc::View { view: 0 }));
     watch(&mut lab, "the refusal", |app| {
         let standing = app.wall().analysis().standing("B");
-        standing.is_some_and(|s| matches!(s.against, Against::Nothing(why) if why.contains("another seed")))
+        standing
+            .is_some_and(|s| matches!(s.against, ComparedWith::Nothing(why) if why.contains("another seed")))
     });
     assert!(lab.state().wall().analysis().standing("B").is_some_and(|s| s.errors.is_empty()));
 }

@@ -11,10 +11,10 @@ use majorant::model::{Arrangement, Pair, WindowDoc};
 use majorant::view::tone_mapper::PictureId;
 use majorant::wall::dock::TABS;
 use majorant::wall::presets::PRESETS;
-use majorant_core::compare::{Against, Verdict, maps};
+use majorant_core::compare::{ComparedWith, Verdict, maps};
 use majorant_core::io::{Library, embedded, export, scene_file};
 use majorant_core::scene::{Fairness, ReferenceDoc, SceneDoc};
-use majorant_core::session::{Job, Role as DirectionSample, Session, Status, ViewId};
+use majorant_core::session::{Job, Role as ViewRole, Session, Status, ViewId};
 use std::sync::Arc;
 
 /// A tight majorant, one that is too low but weighted, and one that is clamped.
@@ -151,7 +151,7 @@ fn a_clamped_majorant_is_found_and_the_unbiased_are_left_alone() {
         verdicts(app) == [Verdict::Agrees, Verdict::Agrees, Verdict::Differs]
     });
     let standings = lab.state().wall().analysis().standings.clone();
-    assert_eq!(standings[2].against, Against::Others("A, B".into()));
+    assert_eq!(standings[2].against, ComparedWith::Others("A, B".into()));
     assert_eq!(standings[2].declared_bias, Some("the majorant is clamped"));
     lab.get_by_label_contains("biased: the majorant is clamped");
 }
@@ -222,7 +222,7 @@ fn a_reference_is_rendered_beside_the_views_and_carries_its_noise() {
             .analysis()
             .standings
             .iter()
-            .any(|s| matches!(s.against, Against::Reference(_)) && s.error("relmse").is_some())
+            .any(|s| matches!(s.against, ComparedWith::Reference(_)) && s.error("relmse").is_some())
     });
     assert!(lab.state().wall().uploaded(PictureId::Reference).is_some());
 }
@@ -231,7 +231,7 @@ fn a_reference_is_rendered_beside_the_views_and_carries_its_noise() {
 fn rendered(doc: &SceneDoc, path: &std::path::Path) {
     let (wake, woken) = std::sync::mpsc::channel();
     let session = Session::new(Library::default(), move || wake.send(()).unwrap_or(())).expect("threads");
-    let job = Job { doc: Arc::new(doc.clone()), preview: false, role: DirectionSample::Contender };
+    let job = Job { doc: Arc::new(doc.clone()), preview: false, role: ViewRole::View };
     session.submit(ViewId(1), job);
     while session.state(ViewId(1)).status != Status::Finished {
         woken.recv().expect("a session that lives");
@@ -250,7 +250,7 @@ fn a_dropped_render_is_the_reference_until_the_scene_changes() {
     drop_file(&mut lab, path);
     assert_eq!(doc(&lab).compare.reference, ReferenceDoc::File { file: "reference.exr".into() });
     wait(&mut lab, "errors", |app| {
-        app.wall().analysis().standings.iter().any(|s| matches!(s.against, Against::Reference(_)))
+        app.wall().analysis().standings.iter().any(|s| matches!(s.against, ComparedWith::Reference(_)))
     });
     assert_eq!(lab.state().wall().reference_state().problem, None);
     // Another scene: it must not be used any more.
@@ -261,7 +261,7 @@ fn a_dropped_render_is_the_reference_until_the_scene_changes() {
     wait(&mut lab, "new numbers", |app| {
         let standings = &app.wall().analysis().standings;
         standings.len() == 3
-            && standings.iter().all(|s| matches!(s.against, Against::Nothing(_)) && s.errors.is_empty())
+            && standings.iter().all(|s| matches!(s.against, ComparedWith::Nothing(_)) && s.errors.is_empty())
     });
 }
 

@@ -44,7 +44,7 @@ pub fn endless(threads: usize) -> SceneDoc {
 
 /// A job of a document.
 pub fn job(doc: &SceneDoc, preview: bool) -> Job {
-    Job { doc: Arc::new(doc.clone()), preview, role: Role::Contender }
+    Job { doc: Arc::new(doc.clone()), preview, role: Role::View }
 }
 
 /// A session that tells when there is something new to see.

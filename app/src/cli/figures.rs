@@ -35,7 +35,8 @@ pub(super) struct Arguments {
     /// Output folder.
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Density that replaces an embedded one: `plume=FILE` or `smoke=FILE`, `cloud=FILE` or `bunny=FILE`, or FILE for both. Repeatable.
+    /// Density that replaces an embedded one: `plume=FILE` or `smoke=FILE`, `cloud=FILE` or `bunny=FILE`, or
+    /// FILE for both. Repeatable.
     #[arg(long, value_name = "FILE", value_parser = parse_volume)]
     volume: Vec<OwnVolume>,
     /// Samples per pixel of the panels.

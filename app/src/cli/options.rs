@@ -39,10 +39,7 @@ fn dropped(scene: &Limits, given: &Limits) -> Option<String> {
     .filter_map(|(key, value)| Some(format!("render.{key} = {}", value?)))
     .collect();
     (!dropped.is_empty()).then(|| {
-        format!(
-            "the given limits replace those of the scene; {} no longer holds",
-            dropped.join(", ")
-        )
+        format!("the given limits replace those of the scene; {} no longer holds", dropped.join(", "))
     })
 }
 

@@ -112,13 +112,13 @@ fn line(i: usize, row: &Row, count: usize) -> String {
         row.uni[0].to_string(),
         row.nee[0].to_string(),
     );
-    if let Some(credit) = &row.credit {
+    if let Some(contribution) = &row.contribution {
         let values = |values: &[f32; 4]| {
             let values: Vec<_> = values[..count].iter().map(|v| format!("{v:.5}")).collect();
             values.join(" ")
         };
-        let _ = write!(text, "  {} adds {}", credit.technique.name(), values(&credit.value));
-        if let Some(by_definition) = &credit.by_definition {
+        let _ = write!(text, "  {} adds {}", contribution.technique.name(), values(&contribution.value));
+        if let Some(by_definition) = &contribution.by_definition {
             let _ = write!(text, " (by definition {})", values(by_definition));
         }
     }
@@ -146,7 +146,7 @@ fn json(ledger: &Ledger, at: PathIndex, estimator: &str) -> serde_json::Value {
                 "kept": row.kept.map(|k| {
                     k.names.iter().zip(&k.values).map(|(name, v)| (*name, lanes(v))).collect::<Vec<_>>()
                 }),
-                "credit": row.credit.map(|c| serde_json::json!({
+                "credit": row.contribution.map(|c| serde_json::json!({
                     "technique": c.technique.name(),
                     "order": c.order,
                     "null_collisions": c.nulls,

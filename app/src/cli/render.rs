@@ -129,7 +129,7 @@ fn render(
         let _ = wake.try_send(());
     })?;
     let view = ViewId(0);
-    session.submit(view, Job { doc, preview: false, role: Role::Contender });
+    session.submit(view, Job { doc, preview: false, role: Role::View });
     loop {
         let state = session.state(view);
         if let Some(snapshot) = &state.snapshot {

@@ -35,8 +35,8 @@ pub(super) struct Frozen {
 }
 
 impl Frozen {
-    /// Creates the probe for the first `samples` samples per pixel of the film. Progressive majorants are raised as
-    /// by the film.
+    /// Creates the probe for the first `samples` samples per pixel of the film. Progressive majorants are
+    /// raised as by the film.
     pub fn probe(&self, samples: u64) -> Result<Probe, Failure> {
         Ok(probe_of_film(&self.probe, self.doc.render.threads, samples)?)
     }

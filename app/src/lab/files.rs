@@ -40,7 +40,7 @@ impl LabApp {
         match FileKind::of(&path) {
             FileKind::Scene => self.apply(Command::Open(Source::File(path))),
             FileKind::Volume => self.attempt(|app| app.tasks.look_into(path)),
-            FileKind::Panorama if self.is_render(&path) => self.hold_against(&path),
+            FileKind::Panorama if self.is_render(&path) => self.use_as_reference(&path),
             FileKind::Panorama => self.light_with(&path),
             FileKind::Unknown => self.messages.fail(format!(
                 "{}: unsupported file type. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
@@ -87,7 +87,7 @@ impl LabApp {
             Purpose::OpenScene => self.apply(Command::Open(Source::File(path))),
             Purpose::OpenVolume => self.attempt(|app| app.tasks.look_into(path)),
             Purpose::SaveScene => self.save_to(&path),
-            Purpose::Reference => self.hold_against(&path),
+            Purpose::Reference => self.use_as_reference(&path),
             Purpose::ExportReport => self.export_report(path),
             Purpose::ExportExr | Purpose::ExportPng => self.export(purpose == Purpose::ExportPng, path),
             Purpose::DensityFile => {
@@ -157,7 +157,7 @@ impl LabApp {
     }
 
     /// Makes an image the reference.
-    fn hold_against(&mut self, path: &Path) {
+    fn use_as_reference(&mut self, path: &Path) {
         let file = self.short_name(path);
         let reference = ReferenceDoc::File { file };
         self.apply(Command::Wall(WallEdit::Reference(reference)));
@@ -165,7 +165,7 @@ impl LabApp {
         self.wall.reread_reference();
         let seed = compare::seed_of(path);
         let sharing = (0..self.doc().view_count())
-            .find(|view| seed.is_some() && self.doc().contender(*view).map(|c| c.seed) == seed);
+            .find(|view| seed.is_some() && self.doc().view_overrides(*view).map(|c| c.seed) == seed);
         if let Some(view) = sharing {
             self.messages.fail(format!(
                 "{} was rendered with the seed of view {}: their correlated noise looks like agreement. Choose \

@@ -55,7 +55,7 @@ impl LabApp {
     }
 
     /// Moves forward or back by a number of steps; beyond the last step the lesson is finished.
-    pub(super) fn turn_lesson(&mut self, by: isize) {
+    pub(super) fn step_lesson(&mut self, by: isize) {
         let Some(player) = &mut self.lesson else { return };
         let Some(step) = player.step.checked_add_signed(by) else { return };
         let (id, steps) = (player.lesson.id.clone(), player.lesson.steps.len());

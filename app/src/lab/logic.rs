@@ -191,16 +191,16 @@ impl LabApp {
                 self.wall.tool = if self.wall.tool == Tool::Region { Tool::Camera } else { Tool::Region };
             }
             Command::ToggleDock => *self.dock_shown() ^= true,
-            Command::TryBeside(doc) => {
+            Command::AddViewWith(doc) => {
                 self.apply(Command::Wall(WallEdit::AddView(doc)));
                 self.apply(Command::ShowTab("ranking"));
             }
-            Command::HoldAgainstRight => {
+            Command::CompareWithCorrect => {
                 let selected = self.wall.selected();
-                self.apply(Command::Wall(WallEdit::AgainstRight(selected)));
+                self.apply(Command::Wall(WallEdit::CompareWithCorrect(selected)));
                 self.apply(Command::ShowTab("ranking"));
             }
-            Command::TakeFaultOut => {
+            Command::RemoveFaults => {
                 let selected = self.wall.selected();
                 if let Some(mut doc) = self.doc().view_doc(selected) {
                     faults::remove(&mut doc);
@@ -224,7 +224,7 @@ impl LabApp {
             }
             Command::OpenPreset(name) => self.guarded(Command::OpenPreset(name)),
             Command::OpenLesson(lesson) => self.guarded(Command::OpenLesson(lesson)),
-            Command::TurnLesson(by) => self.turn_lesson(by),
+            Command::StepLesson(by) => self.step_lesson(by),
             Command::AnswerLesson(choice) => self.answer_lesson(choice),
             Command::CloseLesson => self.lesson = None,
             Command::ToggleLargeType => {

@@ -153,7 +153,7 @@ fn fault_ui(ui: &mut Ui, name: &str, commands: &mut Vec<Command>) {
         ui.label(RichText::new(format!("Deliberate fault: {name}")).color(palette.strong));
         ui.label(RichText::new("the image of this view is incorrect").color(palette.text));
         if ui.small_button("Remove it").clicked() {
-            commands.push(Command::TakeFaultOut);
+            commands.push(Command::RemoveFaults);
         }
     });
 }

@@ -132,7 +132,7 @@ fn footer_ui(ui: &mut Ui, player: &Player, commands: &mut Vec<Command>) {
         ui.add(ProgressBar::new(share).desired_height(4.0));
         ui.horizontal(|ui| {
             if ui.add_enabled(player.step > 0, Button::new("Back")).on_hover_text("Page up").clicked() {
-                commands.push(Command::TurnLesson(-1));
+                commands.push(Command::StepLesson(-1));
             }
             ui.label(RichText::new(format!("{} of {steps}", player.step + 1)).small().color(palette.weak));
             let next = if player.is_last() { "Finish" } else { "Next" };
@@ -140,7 +140,7 @@ fn footer_ui(ui: &mut Ui, player: &Player, commands: &mut Vec<Command>) {
                 if player.may_go_on() { "Page down" } else { "Choose an answer first: a guess is fine" };
             let response = ui.add_enabled(player.may_go_on(), Button::new(next));
             if response.on_hover_text(tip).on_disabled_hover_text(tip).clicked() {
-                commands.push(Command::TurnLesson(1));
+                commands.push(Command::StepLesson(1));
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 if ui.button("Close").on_hover_text("The scene stays as it is").clicked() {
@@ -158,9 +158,9 @@ fn keys(ui: &Ui, player: &Player, commands: &mut Vec<Command>) {
     }
     let pressed = |key: Key| ui.input(|input| input.key_pressed(key));
     if pressed(Key::PageDown) && player.may_go_on() {
-        commands.push(Command::TurnLesson(1));
+        commands.push(Command::StepLesson(1));
     }
     if pressed(Key::PageUp) && player.step > 0 {
-        commands.push(Command::TurnLesson(-1));
+        commands.push(Command::StepLesson(-1));
     }
 }

@@ -61,11 +61,11 @@ pub enum Command {
     /// Shows or hides the dock with statistics.
     ToggleDock,
     /// Adds a view with the method of this document.
-    TryBeside(Box<SceneDoc>),
+    AddViewWith(Box<SceneDoc>),
     /// Adds views without faults to compare the selected view with, and shows the ranking.
-    HoldAgainstRight,
+    CompareWithCorrect,
     /// Disables all faults of the selected view.
-    TakeFaultOut,
+    RemoveFaults,
     /// Picks the pixel whose samples are shown.
     Pick([usize; 2]),
     /// Replays one sample of a pixel.
@@ -77,7 +77,7 @@ pub enum Command {
     /// Opens the lesson with this id, after asking about unsaved changes.
     OpenLesson(String),
     /// Moves by this number of steps within the open lesson.
-    TurnLesson(isize),
+    StepLesson(isize),
     /// Stores the answer to a prediction, by its index.
     AnswerLesson(usize),
     /// Closes the open lesson and keeps its scene.

@@ -2,7 +2,7 @@
 
 use super::window::{Arrangement, Layer, Pair, WindowDoc};
 use majorant_core::scene::{
-    ContenderDoc, Fairness, Fault, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc, WhenExceeded,
+    Fairness, Fault, MAX_VIEWS, MeasureId, ReferenceDoc, SceneDoc, ViewOverrides, WhenExceeded,
 };
 
 /// Edit of a comparison. Views count from 0.
@@ -17,7 +17,7 @@ pub enum WallEdit {
     AddView(Box<SceneDoc>),
     /// Adds two correct views to compare this one with: its settings without faults, by Uni+NEE MIS and by
     /// NEE.
-    AgainstRight(usize),
+    CompareWithCorrect(usize),
     /// Removes this view, unless it is the only one.
     Remove(usize),
     /// Swaps two views.
@@ -55,34 +55,34 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
         WallEdit::Count(wanted) => {
             let wanted = (*wanted).clamp(1, MAX_VIEWS);
             while doc.view_count() < wanted {
-                let next = next_contender(&doc);
+                let next = next_view(&doc);
                 doc.compare.views.push(next);
             }
             doc.compare.views.truncate(wanted - 1);
         }
         WallEdit::AddView(method) if count < MAX_VIEWS => {
-            if let Some(next) = method.contender(0) {
+            if let Some(next) = method.view_overrides(0) {
                 let seed = doc.free_seed();
-                doc.compare.views.push(ContenderDoc { seed, ..next });
+                doc.compare.views.push(ViewOverrides { seed, ..next });
             }
         }
-        WallEdit::AgainstRight(view) => {
-            let Some(mut right) = doc.contender(*view) else { return doc };
+        WallEdit::CompareWithCorrect(view) => {
+            let Some(mut right) = doc.view_overrides(*view) else { return doc };
             let usual = SceneDoc::default();
             right.estimator.fault = Fault::None;
             right.estimator.transmittance.clone_from(&usual.estimator.transmittance);
             (right.majorant.factor, right.majorant.when_exceeded) = (1.0, WhenExceeded::Weighted);
             for id in ["uni-nee-mis", "nee"].into_iter().take(MAX_VIEWS - count) {
-                let mut next = ContenderDoc { seed: doc.free_seed(), ..right.clone() };
+                let mut next = ViewOverrides { seed: doc.free_seed(), ..right.clone() };
                 id.clone_into(&mut next.estimator.id);
                 doc.compare.views.push(next);
             }
             WindowDoc::edit(&mut doc, |w| (w.arrangement, w.pair) = (Arrangement::Grid, Pair(*view, count)));
         }
         WallEdit::Duplicate(view) if count < MAX_VIEWS => {
-            if let Some(copy) = doc.contender(*view) {
+            if let Some(copy) = doc.view_overrides(*view) {
                 let seed = doc.free_seed();
-                doc.compare.views.insert(*view, ContenderDoc { seed, ..copy });
+                doc.compare.views.insert(*view, ViewOverrides { seed, ..copy });
                 follow(&mut doc, |at| if at > *view { at + 1 } else { at });
             }
         }
@@ -100,14 +100,14 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
         WallEdit::OwnZoom(own) => WindowDoc::edit(&mut doc, |w| w.own_zoom = *own),
         WallEdit::OwnCamera(view, own) => {
             let camera = own.then(|| doc.camera.clone());
-            if let Some(contender) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
-                contender.camera = camera;
+            if let Some(view_overrides) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
+                view_overrides.camera = camera;
             }
         }
         WallEdit::OwnDisplay(view, own) => {
             let display = own.then(|| doc.view.clone());
-            if let Some(contender) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
-                contender.view = display;
+            if let Some(view_overrides) = view.checked_sub(1).and_then(|i| doc.compare.views.get_mut(i)) {
+                view_overrides.view = display;
             }
         }
     }
@@ -116,10 +116,10 @@ pub fn edited(doc: &SceneDoc, edit: &WallEdit) -> SceneDoc {
 }
 
 /// Creates a further view with a new seed and the first unused estimator, or else that of view A.
-fn next_contender(doc: &SceneDoc) -> ContenderDoc {
+fn next_view(doc: &SceneDoc) -> ViewOverrides {
     let taken: Vec<String> =
-        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
-    let mut next = doc.contender(0).unwrap_or_default();
+        (0..doc.view_count()).filter_map(|v| doc.view_overrides(v)).map(|c| c.estimator.id).collect();
+    let mut next = doc.view_overrides(0).unwrap_or_default();
     let free = majorant_core::estimator::REGISTRY.iter().find(|e| !taken.iter().any(|id| id == e.id));
     if let Some(entry) = free {
         entry.id.clone_into(&mut next.estimator.id);
@@ -129,7 +129,7 @@ fn next_contender(doc: &SceneDoc) -> ContenderDoc {
 }
 
 /// Makes the settings of a contender those of view A.
-fn become_first(doc: &mut SceneDoc, first: ContenderDoc) {
+fn become_first(doc: &mut SceneDoc, first: ViewOverrides) {
     doc.estimator = first.estimator;
     doc.medium.majorant = first.majorant;
     doc.render.seed = first.seed;
@@ -167,11 +167,11 @@ fn swap(doc: &mut SceneDoc, a: usize, b: usize) {
     let (a, b) = (a.min(b), a.max(b));
     if a > 0 {
         doc.compare.views.swap(a - 1, b - 1);
-    } else if let Some(first) = doc.contender(0) {
+    } else if let Some(first) = doc.view_overrides(0) {
         // A separate camera would become that of the scene: views are swapped, cameras are not.
         let second = std::mem::replace(&mut doc.compare.views[b - 1], first);
         let (camera, view) = (second.camera.clone(), second.view.clone());
-        become_first(doc, ContenderDoc { camera: None, view: None, ..second });
+        become_first(doc, ViewOverrides { camera: None, view: None, ..second });
         (doc.compare.views[b - 1].camera, doc.compare.views[b - 1].view) = (camera, view);
     }
 }
@@ -201,7 +201,7 @@ mod tests {
     use majorant_core::estimator::validate;
 
     fn ids(doc: &SceneDoc) -> Vec<String> {
-        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect()
+        (0..doc.view_count()).filter_map(|v| doc.view_overrides(v)).map(|c| c.estimator.id).collect()
     }
 
     fn after(doc: &SceneDoc, edits: &[WallEdit]) -> SceneDoc {

@@ -30,7 +30,7 @@ pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     }
 }
 
-/// The spectra of a medium that is not given by extinction and albedo; whether it is one.
+/// Shows the spectra of a medium that is not given by extinction and albedo; returns `false` for other media.
 pub(super) fn spectra_ui(ui: &mut Ui, cx: &mut Cx<'_>) -> bool {
     if cx.draft.medium.coefficients.is_none() {
         return false;

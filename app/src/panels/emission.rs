@@ -33,16 +33,16 @@ impl Panel for Emission {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let Cx { draft, opened, grids, commands, state, .. } = cx;
-        let mut glows = draft.medium.emission.is_some();
+        let mut emits = draft.medium.emission.is_some();
         switch(
             ui,
             "Thermal",
             "Thermal emission",
-            &mut glows,
+            &mut emits,
             "emission as a black body",
             "Thermal emission at the temperature of the medium; requires absorption",
         );
-        if !glows {
+        if !emits {
             draft.medium.emission = None;
             return;
         }

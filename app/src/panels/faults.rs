@@ -125,7 +125,7 @@ impl Panel for Faults {
             let prove = ui.button("Compare with the correct image");
             let tip = "Adds two views of the same scene without the fault; their samples decide the verdict";
             if prove.on_hover_text(tip).clicked() {
-                cx.commands.push(Command::HoldAgainstRight);
+                cx.commands.push(Command::CompareWithCorrect);
             }
         }
     }

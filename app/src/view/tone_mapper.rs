@@ -159,10 +159,7 @@ impl ToneMapper {
                 older
             });
         };
-        let rest = move |took: Duration| {
-            let shortest = lock(&rests).interval.max(SHORTEST);
-            (took * (SHARE - 1)).max(shortest.saturating_sub(took))
-        };
+        let rest = move |took: Duration| (took * SHARE).max(lock(&rests).interval).max(SHORTEST);
         let mut worker = Background::new("tone-mapper", work).with_inbox(waker.0).resting(rest);
         worker.set_wake(repaint);
         worker.start()?;
@@ -317,7 +314,7 @@ fn values(map: &Map, picture: PictureId, experiment: &Experiment) -> Option<(Arc
             let snapshot = find(number)?;
             let held = match (map.needs_reference, map.is_test()) {
                 (false, _) => None,
-                (true, true) => experiment.held_against(number).1,
+                (true, true) => experiment.compared_with(number).1,
                 (true, false) => experiment.measured_against(number),
             };
             (

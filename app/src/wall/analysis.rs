@@ -5,7 +5,7 @@ use crate::background::{Background, Reply};
 use crate::model::{Pair, WindowDoc};
 use majorant_core::compare::curve::{Point, PowerLaw};
 use majorant_core::compare::{
-    Agreement, Estimate, Experiment, Opponent, Reference, Standing, View, agreement,
+    Agreement, Comparison, Estimate, Experiment, Reference, Standing, View, agreement,
 };
 use majorant_core::measure::{self, Measure, Region};
 
@@ -106,8 +106,7 @@ impl AnalysisWorker {
             analysis.seconds = started.elapsed().as_secs_f64();
             reply.merge(Arc::new(analysis), |_, newer| newer);
         };
-        let mut worker = Background::new("analysis", work)
-            .resting(|took| (took * (SHARE - 1)).max(SHORTEST.saturating_sub(took)));
+        let mut worker = Background::new("analysis", work).resting(|took| (took * SHARE).max(SHORTEST));
         worker.set_wake(repaint);
         worker.start()?;
         Ok(Self(worker))
@@ -165,16 +164,16 @@ impl Memory {
         let experiment = &question.experiment;
         let compare = &experiment.doc.compare;
         let chosen = measure::find(&compare.measure.0);
-        let opponents = experiment.opponents();
+        let comparisons = experiment.comparisons();
         // The relative MSE is in every table, in addition to the chosen measure.
         let mut measures: Vec<&'static Measure> = measure::find("relmse").into_iter().collect();
         measures.extend(chosen.filter(|m| m.id != "relmse"));
-        let standings = experiment.rank_against(measures, &opponents);
+        let standings = experiment.rank_against(measures, &comparisons);
         let measured = |v: &View| standings.iter().any(|s| s.label == v.label && !s.errors.is_empty());
         let measured: Vec<bool> = experiment.views.iter().map(|(_, v)| measured(v)).collect();
         Analysis {
             of: question.of.clone(),
-            curves: chosen.map(|m| self.curves(experiment, m, &opponents, &measured)).unwrap_or_default(),
+            curves: chosen.map(|m| self.curves(experiment, m, &comparisons, &measured)).unwrap_or_default(),
             standings,
             measure: chosen,
             pair: pair(experiment, WindowDoc::of(&experiment.doc).pair),
@@ -188,11 +187,12 @@ impl Memory {
         &mut self,
         experiment: &Experiment,
         chosen: &'static Measure,
-        opponents: &[Opponent<'_>],
+        comparisons: &[Comparison<'_>],
         measured: &[bool],
     ) -> Vec<Curve> {
         let mut curves = Vec::new();
-        for (((number, view), (_, held)), measured) in experiment.views.iter().zip(opponents).zip(measured) {
+        for (((number, view), (_, held)), measured) in experiment.views.iter().zip(comparisons).zip(measured)
+        {
             let Some(held) = held.as_ref().filter(|_| *measured) else { continue };
             let key = CurveKey {
                 generation: view.checkpoints.generation(),

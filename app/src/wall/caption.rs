@@ -10,7 +10,7 @@ use egui::{
     Align, Color32, CornerRadius, FontId, Frame, Label, Layout, Margin, Rect, RichText, Ui, UiBuilder,
 };
 use majorant_core::compare::report::words;
-use majorant_core::compare::{Against, Agreement, Standing, Verdict, label};
+use majorant_core::compare::{Agreement, ComparedWith, Standing, Verdict, label};
 use majorant_core::estimator;
 use majorant_core::measure::{Measure, Measured};
 use majorant_core::scene::{ReferenceDoc, SceneDoc};
@@ -58,7 +58,7 @@ pub fn percent(difference: f64, error: f64) -> String {
 /// Short text of the verdict on a view, with its colour.
 #[must_use]
 pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
-    if let Against::Nothing(_) = standing.against {
+    if let ComparedWith::Nothing(_) = standing.against {
         return match standing.declared_bias {
             Some(_) => ("biased by choice".into(), palette.error),
             None => ("–".into(), palette.weak),
@@ -73,7 +73,8 @@ pub fn verdict(standing: &Standing, palette: &Palette) -> (String, Color32) {
         Verdict::Undecided => ("too noisy to tell".into(), palette.weak),
         // A difference from the mean of other views does not show which of them is biased.
         Verdict::Differs => {
-            let open = matches!(standing.against, Against::Others(_)) && standing.declared_bias.is_none();
+            let open =
+                matches!(standing.against, ComparedWith::Others(_)) && standing.declared_bias.is_none();
             let word = if open { "differs" } else { "biased" };
             (format!("{word}: {}", size(found)), palette.error)
         }
@@ -147,7 +148,7 @@ pub(super) fn caption_ui(
 
 /// Name of a view: its estimator, and the settings in which it differs.
 pub fn name(doc: &SceneDoc, view: usize) -> String {
-    let Some(own) = doc.contender(view) else { return String::new() };
+    let Some(own) = doc.view_overrides(view) else { return String::new() };
     let mut name =
         estimator::find(&own.estimator.id).map_or(own.estimator.id.as_str(), |e| e.name).to_owned();
     let majorant = &own.majorant;
@@ -225,7 +226,7 @@ pub(super) fn error_tip(measure: &Measure, measured: &Measured) -> String {
 /// Explanation of the missing error of a view, if there is one.
 pub(super) fn not_measured(standing: &Standing, doc: &SceneDoc) -> Option<&'static str> {
     match (&doc.compare.reference, &standing.against) {
-        (ReferenceDoc::Pooled, Against::Others(_)) if standing.errors.is_empty() => Some(
+        (ReferenceDoc::Pooled, ComparedWith::Others(_)) if standing.errors.is_empty() => Some(
             "No error: the noise of the other views is not known accurately, or much larger than that of this view",
         ),
         _ => None,
@@ -235,9 +236,9 @@ pub(super) fn not_measured(standing: &Standing, doc: &SceneDoc) -> Option<&'stat
 /// Tooltip of a verdict: the reference and the result of the comparison.
 pub(super) fn against(standing: &Standing) -> String {
     let with = match &standing.against {
-        Against::Reference(origin) => format!("Compared with the reference ({origin})"),
-        Against::Others(labels) => format!("Compared with the mean of {labels}"),
-        Against::Nothing(why) => format!("Not compared: {why}"),
+        ComparedWith::Reference(origin) => format!("Compared with the reference ({origin})"),
+        ComparedWith::Others(labels) => format!("Compared with the mean of {labels}"),
+        ComparedWith::Nothing(why) => format!("Not compared: {why}"),
     };
     let bias = standing.declared_bias.map_or_else(String::new, |why| format!("\nBiased by choice: {why}"));
     let found = standing.agreement.map_or_else(String::new, |a| {
@@ -249,7 +250,7 @@ pub(super) fn against(standing: &Standing) -> String {
         )
     });
     let spread = if standing.evenly_spread {
-        "\nIts samples are stratified: error bars overestimate its errors, so that a small bias may not be detected."
+        "\nIts samples are quasi-random: error bars overestimate its errors, so that a small bias may not be detected."
     } else {
         ""
     };

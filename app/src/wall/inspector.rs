@@ -1,4 +1,4 @@
-//! What the tabs about single paths hold from frame to frame.
+//! State of the tabs for paths, rays, contributions and noise that persists between frames.
 
 use crate::background::BackgroundQuery;
 use majorant_core::estimator::Entry;
@@ -7,151 +7,151 @@ use majorant_core::scene::CameraDoc;
 use majorant_core::transmittance::{Shape, TransmittanceKind};
 use std::sync::Arc;
 
-/// A path that is replayed.
+/// Input of the replay of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathQuestion {
-    /// Which submission of which view, and how often its majorants were raised.
+    /// View, its submission, and how often its majorants were raised.
     pub of: (usize, u64, usize),
-    /// The pixel.
+    /// Pixel, column and row.
     pub pixel: [usize; 2],
-    /// The sample.
+    /// Index of the sample.
     pub sample: u64,
-    /// By which estimator.
+    /// Id of the estimator.
     pub estimator: &'static str,
 }
 
-/// A path with its books.
+/// A replayed path with its path weights.
 pub struct Replayed {
-    /// What was traced.
+    /// Recorded events.
     pub recording: Recording,
-    /// What comes of it.
+    /// Path weights after every event.
     pub ledger: Ledger,
 }
 
-/// What the ray of a path's event leads through.
+/// Medium along the ray of an event.
 pub struct Segment {
-    /// Of which path.
+    /// The path.
     pub of: Arc<Replayed>,
-    /// The note that has begun the ray.
+    /// Index of the note at which the ray begins.
     pub began: usize,
-    /// Extinction and majorants; none where the ray misses the medium.
+    /// Extinction and majorants; `None` if the ray misses the medium.
     pub bench: Option<RayBench>,
 }
 
-/// See `dock/path`.
+/// State of the *Path* tab, see `dock/path`.
 #[derive(Default)]
 pub struct PathState {
-    /// The path's recording.
+    /// Background replay.
     pub query: BackgroundQuery<PathQuestion, Replayed>,
-    /// The sample that was chosen; the brightest if none was.
+    /// Chosen sample; `None` for the brightest.
     pub sample: Option<u64>,
-    /// Another estimator that is given the same random numbers.
+    /// Estimator that is replayed with the same random numbers, instead of the view's.
     pub under: Option<&'static Entry>,
-    /// The row of the ledger that is looked at.
+    /// Index of the selected event.
     pub step: usize,
-    /// Whether the ledger has to show that row.
+    /// Whether the table has to scroll to the selected event.
     pub scroll: bool,
-    /// Where the path is looked at from; as the scene's camera stands at first.
+    /// Camera of the 3D view; `None` until it is initialized from the scene's camera.
     pub eye: Option<CameraDoc>,
-    /// What the chosen event's ray leads through.
+    /// Medium along the ray of the selected event.
     pub segment: Option<Segment>,
-    /// The pixel that all this is about.
+    /// Pixel to which the other fields belong.
     pub pixel: Option<[usize; 2]>,
 }
 
 impl PathState {
-    /// Turns to one sample of a pixel, at its first event.
+    /// Selects a sample of a pixel, at its first event.
     pub fn choose(&mut self, pixel: [usize; 2], sample: u64) {
         (self.pixel, self.sample, self.step, self.scroll) = (Some(pixel), Some(sample), 0, true);
     }
 }
 
-/// An image that is taken apart.
+/// Input of a decomposition of an image into contributions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartsQuestion {
-    /// Which submission of which view, and how often its majorants were raised.
+    /// View, its submission, and how often its majorants were raised.
     pub of: (usize, u64, usize),
-    /// By what.
+    /// Property by which contributions are separated.
     pub split: Split,
     /// Samples per pixel.
     pub spp: u64,
 }
 
-/// See `dock/parts`.
+/// State of the *Contributions* tab, see `dock/parts`.
 #[derive(Default)]
 pub struct PartsState {
-    /// The parts.
+    /// Background tracing of the contributions.
     pub query: BackgroundQuery<PartsQuestion, Strategies>,
-    /// By what.
+    /// Property by which contributions are separated.
     pub split: Split,
-    /// Samples per pixel, if they were chosen.
+    /// Chosen samples per pixel; `None` for the default.
     pub spp: Option<u64>,
-    /// Textures of the parts, and which answer they are of.
+    /// Textures of the contributions.
     pub uploaded: Vec<egui::TextureHandle>,
-    /// The answer that hangs.
+    /// Contributions shown by the textures.
     pub hung_of: Option<Arc<Strategies>>,
-    /// The exposure that it hangs in.
+    /// Exposure of the textures, in stops.
     pub exposure: f32,
-    /// Whether each pixel shows its share of the light instead of light.
+    /// Whether to show shares of the pixel's radiance instead of radiance.
     pub as_shares: bool,
-    /// Whether it hangs so.
+    /// Whether the textures show shares.
     pub hung_as_shares: bool,
-    /// Since when the parts are shown one after another, in egui's time; none while they stand.
+    /// Start of the playback, in egui's time in seconds; `None` if it is stopped.
     pub playing: Option<f64>,
 }
 
 impl PartsState {
-    /// Samples per pixel that are taken apart.
+    /// Samples per pixel, 4 by default.
     #[must_use]
     pub fn spp(&self) -> u64 {
         self.spp.unwrap_or(4)
     }
 }
 
-/// What the ray on the bench leads through.
+/// Medium of the *Ray* tab.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Through {
-    /// The scene's medium, along the picked pixel's ray.
+    /// The scene's medium, along the ray of the picked pixel.
     #[default]
     Pixel,
-    /// A shape of the textbooks.
+    /// An analytic shape.
     Shape(Shape),
 }
 
-/// A ray that is measured.
+/// Input of a measurement of transmittance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayQuestion {
-    /// Which submission of which view, if it is a pixel's.
+    /// View and its submission, for the ray of a pixel.
     pub of: Option<(usize, u64)>,
-    /// The pixel, if it is one's.
+    /// Pixel, for the ray of a pixel.
     pub pixel: Option<[usize; 2]>,
-    /// What it leads through.
+    /// Medium.
     pub through: Through,
-    /// The component; or extinction, cells and factor of a shape.
+    /// Wavelength or channel for the ray of a pixel; extinction, cells and factor for a shape.
     pub numbers: [f32; 3],
-    /// By what.
+    /// Estimator, number of estimates and seed.
     pub plan: BenchPlan,
 }
 
-/// See `dock/ray`.
+/// State of the *Ray* tab, see `dock/ray`.
 pub struct RayState {
-    /// The ray.
+    /// Background measurement.
     pub query: BackgroundQuery<RayQuestion, RayBench>,
-    /// What it leads through.
+    /// Medium.
     pub through: Through,
-    /// The estimator, if one was chosen.
+    /// Chosen estimator; `None` for the default.
     pub kind: Option<TransmittanceKind>,
-    /// Wavelength of a ray in spectral mode.
+    /// Wavelength in spectral mode, in nm.
     pub lambda_nm: f32,
-    /// Channel of one in RGB mode.
+    /// Channel in RGB mode.
     pub channel: usize,
-    /// Largest extinction of a shape.
+    /// Maximum extinction of a shape, per unit of length.
     pub extinction: f32,
-    /// Cells of its majorant.
+    /// Number of cells of the shape's majorant.
     pub cells: u32,
-    /// Its majorant over the least bound.
+    /// Majorant divided by the tight bound.
     pub factor: f32,
-    /// Which estimate is shown step by step.
+    /// Index of the estimate whose steps are shown.
     pub example: u64,
 }
 
@@ -172,31 +172,31 @@ impl Default for RayState {
 }
 
 impl RayState {
-    /// The estimator.
+    /// Estimator, that of the paths by default.
     #[must_use]
     pub fn kind(&self) -> TransmittanceKind {
         self.kind.unwrap_or(TransmittanceKind::ALONG_THE_PATH)
     }
 }
 
-/// A region whose noise is explained.
+/// Input of a noise analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseQuestion {
-    /// Which submission of which view, and how often its majorants were raised.
+    /// View, its submission, and how often its majorants were raised.
     pub of: (usize, u64, usize),
-    /// The box, if one is drawn.
+    /// Box to which the analysis is restricted.
     pub region: Option<[u32; 4]>,
 }
 
-/// What the tabs hold.
+/// State of the tabs.
 #[derive(Default)]
 pub struct Inspector {
-    /// One path.
+    /// *Path* tab.
     pub path: PathState,
-    /// A ray on the bench.
+    /// *Ray* tab.
     pub ray: RayState,
-    /// An image taken apart.
+    /// *Contributions* tab.
     pub parts: PartsState,
-    /// What is known about the noise. See `dock/noise`.
+    /// *Noise* tab, see `dock/noise`.
     pub noise: BackgroundQuery<NoiseQuestion, Evidence>,
 }

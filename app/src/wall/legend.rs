@@ -1,18 +1,18 @@
-//! What a map's colours stand for.
+//! Colour scale of a map.
 
 use super::caption::digits;
 use crate::theme::Palette;
 use crate::view::tone_mapper::MapImage;
 use egui::{Align2, Color32, Rect, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 
-/// Its height.
+/// Height of the scale, in points.
 pub(super) const HEIGHT: f32 = 40.0;
-/// Width from which it says what views are held against.
+/// Minimum width at which the reference is named, in points.
 const WIDE: f32 = 760.0;
-/// Steps of the gradient.
+/// Number of colour steps.
 const STEPS: usize = 128;
 
-/// Draws the colours with the values at their ends and between.
+/// Draws the colour scale with its values.
 pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
     let palette = Palette::get(ui);
     let response = ui.allocate_rect(rect, Sense::hover());
@@ -60,7 +60,9 @@ pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
         painter.text(egui::pos2(x, bar.bottom() + 4.0), Align2::CENTER_TOP, text, font.clone(), palette.text);
     }
     let against =
-        if print.against.is_empty() { String::new() } else { format!("\nHeld against {}.", print.against) };
-    response
-        .on_hover_text(format!("{}{against}\nAll views share the range; magenta is no number.", map.formula));
+        if print.against.is_empty() { String::new() } else { format!("\nCompared with {}.", print.against) };
+    response.on_hover_text(format!(
+        "{}{against}\nAll views share the range; magenta marks values that are not finite.",
+        map.formula
+    ));
 }

@@ -1,20 +1,21 @@
-//! The wall: one to eight views of the scene, what they are held against, and what comes of it.
+//! Comparison of one to eight views of the scene: images, reference, statistics and verdicts.
 //!
 //! ```text
-//!   document ──► slots (one view of the session each) ──► pictures, maps   (developer's thread)
-//!        ▲                                           └──► numbers, verdicts (analyst's thread)
+//!   document ──► slots (one view of the session each) ──► images, maps          (tone mapper's thread)
+//!        ▲                                           └──► statistics, verdicts  (analysis thread)
 //!        └── WallEdit ◄── bar, cells, dock
 //! ```
 //!
 //! | file | does |
 //! | --- | --- |
-//! | `slot.rs` | which view of the session renders which view of the document |
-//! | `edit.rs` | what a comparison can be asked to become |
-//! | `reference.rs` | what errors are measured against |
-//! | `analysis.rs`, `provenance.rs` | the numbers, and which pictures they describe |
-//! | `bar.rs`, `cells.rs`, `caption.rs`, `legend.rs` | what is seen of it |
-//! | `dock/` | ranking, curves, the samples of a pixel, a scanline, a path, an image's parts; one tab a file |
-//! | `inspector.rs`, `errand.rs` | what tabs about single paths hold, and the threads that work it out |
+//! | `slot.rs` | assignment of session views to views of the document |
+//! | `state.rs`, `state/pictures.rs` | views, textures and statistics between frames |
+//! | `reference.rs` | reference of the errors |
+//! | `analysis.rs`, `provenance.rs` | statistics, and the images that they describe |
+//! | `bar.rs`, `cells.rs`, `caption.rs`, `legend.rs` | toolbar, images, captions and colour scale |
+//! | `dock/` | tabs, one per file: ranking, curves, pixel, scanline, path, ray, contributions, noise |
+//! | `inspector.rs` | state of the tabs for paths, rays, contributions and noise |
+//! | `presets.rs` | predefined comparisons |
 
 pub mod analysis;
 mod bar;

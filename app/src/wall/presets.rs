@@ -1,13 +1,13 @@
-//! Comparisons that are set up already: the report's figures, and a bias to be found.
+//! Predefined comparisons: the figures of the report, and examples of bias and of light sampling.
 
 use majorant_core::io::{embedded, scene_file};
-use majorant_core::scene::{Absorption, ContenderDoc, Fairness, ReferenceDoc, SceneDoc, WhenExceeded};
+use majorant_core::scene::{Absorption, Fairness, ReferenceDoc, SceneDoc, ViewOverrides, WhenExceeded};
 
-/// A comparison that is set up already.
+/// A predefined comparison.
 pub struct Preset {
-    /// Its name in the menu.
+    /// Name in the menu.
     pub name: &'static str,
-    /// What to see in it.
+    /// Description.
     pub about: &'static str,
     scene: &'static str,
     set_up: fn(SceneDoc) -> SceneDoc,
@@ -17,8 +17,8 @@ pub struct Preset {
 pub static PRESETS: &[Preset] = &[
     Preset {
         name: "Figure 2: colour noise",
-        about: "Independent tracking against spectral MIS, 64 samples per pixel: the colour noise that hero \
-                wavelengths take away",
+        about: "Independent tracking and spectral MIS, 64 samples per pixel: hero wavelengths remove the colour \
+                noise",
         scene: "plume-spectral",
         set_up: |doc| figure(doc, &["independent", "spectral-mis"], "uni-nee-mis"),
     },
@@ -36,14 +36,14 @@ pub static PRESETS: &[Preset] = &[
     },
     Preset {
         name: "Figure 4: the noise of absorption",
-        about: "Ending paths where they are absorbed against weighting them by the albedo, 64 samples per pixel: the \
-                same mean, less noise",
+        about: "Analogue absorption and weighting by the albedo, 64 samples per pixel: the same mean, less noise \
+                with weights",
         scene: "homogeneous-absorption",
         set_up: absorption,
     },
     Preset {
         name: "The older integrator",
-        about: "Mitsuba 2's volpath, one component a path, against Uni+NEE MIS over all of them, at equal time",
+        about: "Mitsuba 2's volpath with one component per path, and Uni+NEE MIS over all components, at equal time",
         scene: "plume-spectral",
         set_up: |doc| {
             let mut doc = figure(doc, &["mitsuba2-volpath", "uni-nee-mis"], "uni-nee-mis");
@@ -54,7 +54,7 @@ pub static PRESETS: &[Preset] = &[
     },
     Preset {
         name: "Lanterns in the fog",
-        about: "Free flights against distances drawn towards the lamps, at equal time",
+        about: "Free-flight and equiangular distance sampling, at equal time",
         scene: "lantern",
         set_up: |doc| {
             let mut doc = figure(doc, &["uni-nee-mis", "equiangular-mis"], "equiangular-mis");
@@ -64,19 +64,19 @@ pub static PRESETS: &[Preset] = &[
         },
     },
     Preset {
-        name: "A bias to be found",
-        about: "A majorant that is too low, weighted (unbiased) and clamped (biased), beside a tight one: noise and \
-                bias look alike, until the z-map",
+        name: "Find the bias",
+        about: "A majorant that is too low, weighted (unbiased) and clamped (biased), and a tight one: the z-map \
+                distinguishes bias from noise",
         scene: "homogeneous-absorption",
         set_up: bias,
     },
 ];
 
 impl Preset {
-    /// The scene with its comparison.
+    /// Returns the scene with its comparison.
     ///
     /// # Errors
-    /// A sentence, if the embedded scene is not there.
+    /// A message if the embedded scene does not exist or is invalid.
     pub fn doc(&self) -> Result<SceneDoc, String> {
         let scene = embedded::find(self.scene)
             .ok_or_else(|| format!("There is no embedded scene `{}`.", self.scene))?;
@@ -85,17 +85,17 @@ impl Preset {
     }
 }
 
-/// The report's settings: 64 samples per pixel, a reference of 1024.
+/// Settings of the report: 64 samples per pixel, and a reference with 1024.
 fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
     doc.render.spp = Some(64);
     doc.compare.fairness = Fairness::Samples;
-    let base = doc.contender(0).unwrap_or_default();
+    let base = doc.view_overrides(0).unwrap_or_default();
     for (i, id) in estimators.iter().enumerate() {
         if i == 0 {
             (*id).clone_into(&mut doc.estimator.id);
             continue;
         }
-        let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
+        let mut view = ViewOverrides { seed: doc.free_seed(), ..base.clone() };
         (*id).clone_into(&mut view.estimator.id);
         doc.compare.views.push(view);
     }
@@ -104,7 +104,7 @@ fn figure(mut doc: SceneDoc, estimators: &[&str], reference: &str) -> SceneDoc {
     doc
 }
 
-/// Views that differ in what absorption does, and in nothing else.
+/// Views that differ only in the handling of absorption.
 fn absorption(doc: SceneDoc) -> SceneDoc {
     let id = doc.estimator.id.clone();
     let mut doc = figure(doc, &[&id, &id], "uni-nee-mis");
@@ -116,15 +116,15 @@ fn absorption(doc: SceneDoc) -> SceneDoc {
 }
 
 fn bias(mut doc: SceneDoc) -> SceneDoc {
-    doc.title = "A bias to be found".into();
-    doc.note = "Views B and C have a majorant that is too low. B weighs what exceeds it and stays unbiased, at the \
-                price of noise; C cuts it off. Their pictures look alike: choose `z of blocks` as the layer, or wait \
-                for the verdict."
+    doc.title = "Find the bias".into();
+    doc.note = "Views B and C have a majorant that is too low. B weights the excess and stays unbiased, at the cost \
+                of noise; C clamps it. The images look alike: choose `z of blocks` as the layer, or wait for the \
+                verdict."
         .into();
     doc.render.spp = None;
-    let base = doc.contender(0).unwrap_or_default();
+    let base = doc.view_overrides(0).unwrap_or_default();
     for (when_exceeded, factor) in [(WhenExceeded::Weighted, 0.97), (WhenExceeded::Clamp, 0.9)] {
-        let mut view = ContenderDoc { seed: doc.free_seed(), ..base.clone() };
+        let mut view = ViewOverrides { seed: doc.free_seed(), ..base.clone() };
         view.majorant.factor = factor;
         view.majorant.when_exceeded = when_exceeded;
         doc.compare.views.push(view);

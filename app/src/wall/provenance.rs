@@ -1,29 +1,28 @@
-//! What numbers were computed from: they are shown only with the pictures that they describe.
+//! Provenance of statistics: they are shown only with the images that they describe.
 //!
-//! An analysis is finished later than it was begun, and edits do not wait for it. Every number therefore carries the
-//! submissions, the reference, the box and the baseline that it is about, and is left out as soon as one of these is
-//! another, in the same frame.
+//! Edits do not wait for a running analysis. Every number therefore carries the submissions, the reference, the
+//! box and the baseline from which it was computed, and is hidden in the same frame in which one of these changes.
 
 use super::analysis::Analysis;
 use super::reference::ReferenceId;
 use crate::model::Pair;
-use majorant_core::compare::{Against, Standing, label};
+use majorant_core::compare::{ComparedWith, Standing, label};
 
-/// Everything that numbers depend on, by identity.
+/// Identities of the inputs of an analysis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Provenance {
-    /// The submission that each view's picture is of; none while it has no picture, or one of an older submission.
+    /// Submission of each view; `None` while its image is one of an older submission.
     pub views: Vec<Option<u64>>,
-    /// What errors are measured against.
+    /// The reference of the errors.
     pub reference: ReferenceId,
-    /// The box that numbers are about, if there is one.
+    /// Box to which statistics are restricted.
     pub region: Option<[u32; 4]>,
-    /// The view that speed-ups are relative to.
+    /// Baseline of the speed-ups.
     pub baseline: usize,
 }
 
 impl Provenance {
-    /// Whether a view shows the same submission in both.
+    /// Whether a view has the same submission in both.
     fn agree_on(&self, other: &Self, view: usize) -> bool {
         let of = |p: &Self| p.views.get(view).copied().flatten();
         of(self).is_some() && of(self) == of(other)
@@ -35,7 +34,7 @@ impl Provenance {
 }
 
 impl Analysis {
-    /// The part of it that describes what is shown `now`.
+    /// Returns the numbers that are valid for the provenance `now`.
     #[must_use]
     pub fn matching(&self, now: &Provenance) -> Self {
         let of = &self.of;
@@ -61,20 +60,20 @@ impl Analysis {
     }
 }
 
-/// A view's line without what depends on something that has changed. The view itself has not.
+/// Row of an unchanged view, without the numbers whose other inputs have changed.
 fn standing(standing: &Standing, of: &Provenance, now: &Provenance) -> Standing {
     let mut standing = standing.clone();
     let stands = match &standing.against {
-        Against::Reference(_) => of.reference == now.reference,
-        Against::Others(labels) => {
+        ComparedWith::Reference(_) => of.reference == now.reference,
+        ComparedWith::Others(labels) => {
             of.reference == now.reference && labels.split(", ").all(|label| of.agree_on_label(now, label))
         }
-        Against::Nothing(_) => of.reference == now.reference,
+        ComparedWith::Nothing(_) => of.reference == now.reference,
     };
     if !stands {
         standing.errors.clear();
         standing.agreement = None;
-        standing.against = Against::Nothing("what it was held against has changed");
+        standing.against = ComparedWith::Nothing("the reference has changed");
     }
     if of.baseline != now.baseline || !of.agree_on(now, of.baseline) {
         (standing.speedup, standing.speedup_interval) = (f64::NAN, [f64::NAN; 2]);
@@ -88,7 +87,7 @@ mod tests {
     use majorant_core::compare::{Agreement, Verdict};
     use majorant_core::measure::{Measured, find};
 
-    fn line(view: usize, against: Against) -> Standing {
+    fn line(view: usize, against: ComparedWith) -> Standing {
         let measured = Measured { value: 1.0, error: 0.1, reference_share: 0.0, pixels: 4, excluded: 0 };
         let found = Agreement {
             verdict: Verdict::Agrees,
@@ -124,7 +123,7 @@ mod tests {
         }
     }
 
-    fn analysis(reference: ReferenceId, against: [Against; 3]) -> Analysis {
+    fn analysis(reference: ReferenceId, against: [ComparedWith; 3]) -> Analysis {
         let lines = against.into_iter().enumerate().map(|(view, against)| line(view, against));
         Analysis {
             of: Provenance { views: vec![Some(1), Some(2), Some(3)], reference, region: None, baseline: 0 },
@@ -133,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Labels, whether errors and verdict stand, and whether the speed-up does.
+    /// Labels, whether errors and verdict are valid, and whether the speed-up is.
     fn kept(analysis: &Analysis, now: &Provenance) -> Vec<(String, bool, bool)> {
         let kept = analysis.matching(now).standings.into_iter().map(|s| {
             assert_eq!(s.errors.is_empty(), s.agreement.is_none());
@@ -144,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_number_goes_with_each_thing_that_it_depends_on() {
-        let others = |labels: &str| Against::Others(labels.into());
+        let others = |labels: &str| ComparedWith::Others(labels.into());
         let pooled = analysis(ReferenceId::Pooled, [others("B, C"), others("A, C"), others("A")]);
         let line = |label: &str, held, speedup| (label.to_owned(), held, speedup);
         let same = pooled.of.clone();
@@ -152,18 +151,18 @@ mod tests {
             kept(&pooled, &same),
             [line("A", true, true), line("B", true, true), line("C", true, true)]
         );
-        // The third view was edited: its line goes, and what was held against it.
+        // The third view was edited: its row and the comparisons with it are removed.
         let mut now = same.clone();
         now.views[2] = Some(4);
         assert_eq!(kept(&pooled, &now), [line("A", false, true), line("B", false, true)]);
-        // It shows the picture of before, or none.
+        // It shows the image of the previous submission.
         now.views[2] = None;
         assert_eq!(kept(&pooled, &now), [line("A", false, true), line("B", false, true)]);
-        // So was the baseline.
+        // The baseline was edited.
         let mut now = same.clone();
         now.views[0] = Some(5);
         assert_eq!(kept(&pooled, &now), [line("B", false, false), line("C", false, false)]);
-        // Two views have changed places, or only one is left.
+        // Two views were swapped, or only one remains.
         let mut now = same.clone();
         now.views.swap(0, 1);
         assert_eq!(kept(&pooled, &now), [line("C", false, false)]);
@@ -177,12 +176,12 @@ mod tests {
         let mut now = same.clone();
         now.region = Some([0, 0, 1, 1]);
         assert_eq!(kept(&pooled, &now), []);
-        // No reference any more: the errors go.
+        // The reference was removed: so are the errors.
         let mut now = same;
         now.reference = ReferenceId::None;
         assert_eq!(kept(&pooled, &now)[0], line("A", false, true));
-        // A reference that has started over.
-        let reference = || Against::Reference("NEE, 8 spp".into());
+        // The reference was restarted.
+        let reference = || ComparedWith::Reference("NEE, 8 spp".into());
         let held = analysis(ReferenceId::Submission(7), [reference(), reference(), reference()]);
         assert_eq!(kept(&held, &held.of)[1], line("B", true, true));
         let now = Provenance { reference: ReferenceId::Submission(9), ..held.of.clone() };

@@ -1,4 +1,4 @@
-//! The reference of the comparison: rendered in the background, read from a file, or a view's picture.
+//! Reference of the comparison: rendered in the background, read from a file, or the image of a view.
 
 use super::slot::Slot;
 use majorant_core::compare::{LEAST_SAMPLES, Reference, label, reference_doc};
@@ -9,59 +9,59 @@ use majorant_core::session::{Ending, Role, Session, Status, ViewId};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The session's view for a reference that is rendered.
+/// Session id of the rendered reference.
 const BACKGROUND: ViewId = ViewId(u32::MAX);
 
-/// Identity of what errors are measured against: numbers against another one are not shown.
+/// Identity of the reference: numbers from another reference are not shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ReferenceId {
-    /// Nothing was chosen.
+    /// No reference.
     #[default]
     None,
-    /// The other unbiased views.
+    /// Mean of the other unbiased views.
     Pooled,
-    /// A view's or a background render's picture, by its submission.
+    /// Image of a view or a background render, by submission.
     Submission(u64),
-    /// A file, by how many were read before it.
+    /// File, by serial number of its reading.
     File(u64),
-    /// What was chosen has no picture yet.
+    /// The chosen reference has no image yet.
     Awaited,
 }
 
-/// See the [module](self).
+/// State of the reference: background render, file, and the newest image.
 #[derive(Default)]
 pub struct ReferenceRenders {
     rendered: Option<Slot>,
     file: Option<FileReference>,
-    /// What the newest picture was made from.
+    /// Snapshot from which the newest image was made.
     made_from: Option<Arc<Snapshot>>,
     picture: Option<Arc<Reference>>,
-    /// Files that were read so far.
+    /// Serial number of the last reading of a file.
     files: u64,
 }
 
 struct FileReference {
     path: PathBuf,
-    /// How many were read before it.
+    /// Serial number of its reading.
     serial: u64,
     read: Option<Result<Arc<Reference>, String>>,
-    /// Whether only the person who chose it says that it shows this scene.
+    /// Whether it has no metadata about its scene, so that it is assumed to show this one.
     trusted: bool,
 }
 
-/// What there is to say about the reference.
+/// Status of the reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceState {
-    /// In a few words.
+    /// Short description.
     pub text: String,
-    /// What is wrong with it, if anything; it is not used then.
+    /// Problem with the reference.
     pub problem: Option<String>,
-    /// Share of the way to its limit, if it is being made.
+    /// Progress of the render, from 0 to 1, while it is rendered.
     pub progress: Option<f32>,
 }
 
 impl ReferenceRenders {
-    /// Brings it in line with the document. Returns a file that has to be read.
+    /// Updates the reference for a document. Returns a file that has to be read.
     pub fn submit(
         &mut self,
         doc: &SceneDoc,
@@ -92,7 +92,7 @@ impl ReferenceRenders {
         Some(path)
     }
 
-    /// Everything starts over at the next submission.
+    /// Restarts render and file at the next submission.
     pub fn forget(&mut self) {
         if let Some(slot) = &mut self.rendered {
             slot.forget();
@@ -100,18 +100,18 @@ impl ReferenceRenders {
         self.file = None;
     }
 
-    /// A file is read again at the next submission.
+    /// Reads the file again at the next submission.
     pub fn forget_file(&mut self) {
         self.file = None;
     }
 
-    /// The session's view that renders it, if one does.
+    /// Session id of the rendered reference, if there is one.
     #[must_use]
     pub fn id(&self) -> Option<ViewId> {
         self.rendered.as_ref().map(|slot| slot.id)
     }
 
-    /// A file was read, or not.
+    /// Stores the result of reading a file.
     pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
         if let Some(file) = self.file.as_mut().filter(|f| f.path == path) {
             self.files += 1;
@@ -119,13 +119,13 @@ impl ReferenceRenders {
         }
     }
 
-    /// The view that renders it, if one does.
+    /// Slot of the rendered reference, if there is one.
     #[must_use]
     pub fn rendered(&self) -> Option<&Slot> {
         self.rendered.as_ref()
     }
 
-    /// Which picture numbers are measured against now.
+    /// Identity of the current reference.
     #[must_use]
     pub fn identity(&self, doc: &SceneDoc) -> ReferenceId {
         match (&doc.compare.reference, &self.picture) {
@@ -139,7 +139,7 @@ impl ReferenceRenders {
         }
     }
 
-    /// Takes note of what has changed; `target` names the image that view A shows.
+    /// Updates the image from views and session; `target` is the fingerprint of the image of view A.
     pub fn update(&mut self, doc: &SceneDoc, views: &[Slot], target: Option<&str>, session: &Session) {
         if let Some(slot) = &mut self.rendered {
             slot.update(session);
@@ -157,7 +157,7 @@ impl ReferenceRenders {
                 let named =
                     self.picture.as_ref().is_none_or(|known| known.origin.starts_with(&format!("{origin},")));
                 if !(same && named) {
-                    // No view may have its random numbers, whatever becomes of the document meanwhile.
+                    // Views with the seed of the reference are excluded, even if the document changes meanwhile.
                     let seed = slot.rendered.render.seed;
                     self.picture = usable.as_ref().map(|s| {
                         let origin = format!("{origin}, {} spp", s.spp);
@@ -173,7 +173,7 @@ impl ReferenceRenders {
         }
     }
 
-    /// A picture that does not say what it shows is taken for what it was loaded for.
+    /// Assumes that a file without metadata shows the current scene.
     fn trust(&mut self, target: Option<&str>) {
         let (Some(file), Some(target)) = (&mut self.file, target) else { return };
         if let Some(Ok(read)) = &mut file.read
@@ -185,13 +185,13 @@ impl ReferenceRenders {
         }
     }
 
-    /// The picture, if there is one.
+    /// Newest image of the reference.
     #[must_use]
     pub fn picture(&self) -> Option<&Arc<Reference>> {
         self.picture.as_ref()
     }
 
-    /// Whether a picture is of what errors are measured against, if perhaps an earlier one.
+    /// Whether an image is one of the current reference, possibly with fewer samples.
     #[must_use]
     pub fn is_source_of(&self, shown: Option<&Arc<Reference>>) -> bool {
         let Some((now, shown)) = self.picture.as_ref().zip(shown) else { return false };
@@ -199,7 +199,7 @@ impl ReferenceRenders {
         Arc::ptr_eq(now, shown) || (submission(now).is_some() && submission(now) == submission(shown))
     }
 
-    /// What there is to say about it.
+    /// Status of the reference.
     #[must_use]
     pub fn state(&self, doc: &SceneDoc, target: Option<&str>) -> ReferenceState {
         let plain = |text: &str| ReferenceState { text: text.into(), problem: None, progress: None };
@@ -235,13 +235,13 @@ impl ReferenceRenders {
                         let (film, size) = (&doc.film, (picture.width, picture.height));
                         if size != (film.width as usize, film.height as usize) {
                             state.problem = Some(format!(
-                                "It has {} × {} pixels, but the scene {} × {}: it is not used. Load a picture of \
+                                "It has {} × {} pixels, but the scene {} × {}: it is not used. Load an image of \
                                  this size.",
                                 size.0, size.1, film.width, film.height
                             ));
                         } else if stale {
                             state.problem = Some(
-                                "The scene has changed since this picture was made: it is not used. Load or \
+                                "The scene has changed since this image was made: it is not used. Load or \
                                  render another, or undo the change."
                                     .into(),
                             );

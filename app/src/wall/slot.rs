@@ -1,4 +1,4 @@
-//! Which view of the session shows which view of the document, found by comparing documents.
+//! Assignment of session views to views of the document, by comparison of documents.
 
 use crate::model::Stats;
 use crate::model::{Work, work_after};
@@ -8,34 +8,34 @@ use majorant_core::scene::SceneDoc;
 use majorant_core::session::{Job, Probe, Role, Session, Status, ViewId, ViewState};
 use std::sync::Arc;
 
-/// One view of the document as the session renders it.
+/// A view of the document and its state in the session.
 pub struct Slot {
-    /// Its name in the session.
+    /// Id in the session.
     pub id: ViewId,
-    /// What the session was last given, before file names were resolved.
+    /// Last submitted document, before file names were resolved.
     submitted: Option<SceneDoc>,
-    /// The same with file names resolved.
+    /// Last submitted document, with resolved file names.
     pub rendered: Arc<SceneDoc>,
-    /// What the session was last seen doing.
+    /// State in the session at the last update.
     pub state: ViewState,
-    /// What `state.scene` and `state.notices` are of.
+    /// Document of `state.scene` and `state.notices`.
     built: Option<Arc<SceneDoc>>,
-    /// Relative error of a picture.
+    /// Relative error of a snapshot.
     measured: Option<(Arc<Snapshot>, f64)>,
-    /// Rates and estimates derived from it.
+    /// Rates and estimates derived from the state.
     pub stats: Stats,
-    /// Early pictures, for error curves.
+    /// Early snapshots, for error curves.
     pub checkpoints: Checkpoints,
 }
 
 impl Slot {
-    /// A view that renders nothing yet, and nothing until it is told to go on if the session's other views are `paused`.
+    /// Creates an empty view that is paused if the session's other views are `paused`.
     pub fn paused(id: ViewId, session: &Session, paused: bool) -> Self {
         session.set_paused(id, paused);
         Self::new(id, session)
     }
 
-    /// A view that renders nothing yet.
+    /// Creates an empty view.
     pub fn new(id: ViewId, session: &Session) -> Self {
         Self {
             id,
@@ -49,12 +49,12 @@ impl Slot {
         }
     }
 
-    /// What has to be done so that it shows `cancel`.
+    /// Work needed to show the document `wanted`.
     fn work(&self, wanted: &SceneDoc) -> Work {
         self.submitted.as_ref().map_or(Work::Render, |before| work_after(before, wanted))
     }
 
-    /// Gives the session what changed.
+    /// Submits the changes to the session.
     pub fn submit(
         &mut self,
         wanted: &SceneDoc,
@@ -63,7 +63,7 @@ impl Slot {
         session: &Session,
     ) {
         match self.work(wanted) {
-            // The picture stands; how it is shown and what it is called may not.
+            // The image is unchanged; display settings and names may differ.
             Work::None => self.rendered = Arc::new(resolved(wanted)),
             Work::Limits => {
                 self.rendered = Arc::new(resolved(wanted));
@@ -71,39 +71,39 @@ impl Slot {
             }
             Work::Render => {
                 self.rendered = Arc::new(resolved(wanted));
-                let preview = role == Role::Contender;
+                let preview = role == Role::View;
                 session.submit(self.id, Job { doc: Arc::clone(&self.rendered), preview, role });
             }
         }
         self.submitted = Some(wanted.clone());
-        // What is known of the submission before must not be read as this one's.
+        // The state of the previous submission must not be attributed to this one.
         self.update(session);
     }
 
-    /// The newest picture of what was submitted last; an older submission's is none.
+    /// Newest snapshot of the last submission; `None` if only an older submission has one.
     #[must_use]
     pub fn picture(&self) -> Option<&Arc<Snapshot>> {
         self.state.snapshot.as_ref().filter(|s| s.generation == self.state.generation)
     }
 
-    /// What traces the paths of the submission that is rendered; none until its scene is built.
+    /// Tracer of single paths of the current submission; `None` until its scene is built.
     #[must_use]
     pub fn probe(&self) -> Option<&Probe> {
         self.state.probe.as_ref().filter(|_| self.state.built == self.state.generation)
     }
 
-    /// Whether there is anything left to render, were it not paused.
+    /// Whether rendering has not finished or failed; a paused view is unfinished.
     #[must_use]
     pub fn is_unfinished(&self) -> bool {
         matches!(self.state.status, Status::Building | Status::Rendering | Status::Paused)
     }
 
-    /// Starts over at the next submission, whatever changed.
+    /// Restarts the view at the next submission, even if nothing changed.
     pub fn forget(&mut self) {
         self.submitted = None;
     }
 
-    /// Takes note of what the session has done.
+    /// Updates state, statistics and checkpoints from the session.
     pub fn update(&mut self, session: &Session) {
         self.state = session.state(self.id);
         if self.state.built == self.state.generation {
@@ -116,7 +116,7 @@ impl Slot {
             return;
         };
         let snapshot = self.picture().cloned();
-        // Takes milliseconds: once per picture, and only if it is asked for.
+        // Takes milliseconds: computed once per snapshot, and only if the error is a limit.
         let error =
             snapshot.as_ref().filter(|_| render.relative_error.is_some()).map(|s| match &self.measured {
                 Some((of, error)) if Arc::ptr_eq(of, s) => (Arc::clone(s), *error),
@@ -130,15 +130,15 @@ impl Slot {
     }
 }
 
-/// Whether what building says of one document describes the other: it is about what was read.
+/// Whether scene information and notices of one document describe the other: they depend on the files read.
 fn same_files(a: &SceneDoc, b: &SceneDoc) -> bool {
     a.medium.density == b.medium.density
         && a.medium.phase == b.medium.phase
         && a.lights.len() == b.lights.len()
 }
 
-/// Assigns slots to wanted documents: views that were moved, removed or copied go on rendering, only what
-/// really changed starts over. `fresh` makes a slot that renders nothing yet; what is left over is returned.
+/// Assigns slots to the documents `wanted`, so that only changed views are restarted when views are moved, removed
+/// or copied. `fresh` creates an empty slot. Returns the assigned slots and the unused ones.
 pub fn assign(
     old: Vec<Slot>,
     wanted: &[SceneDoc],
@@ -148,7 +148,7 @@ pub fn assign(
     let mut found: Vec<Option<Slot>> = wanted.iter().map(|_| None).collect();
     let fits =
         |slot: &Option<Slot>, doc: &SceneDoc| slot.as_ref().is_some_and(|s| s.work(doc) != Work::Render);
-    // Those at their place first, then those that moved, then whatever is free.
+    // Unchanged positions first, then moved views, then any free slot.
     for (i, doc) in wanted.iter().enumerate() {
         if let Some(slot) = old.get_mut(i).filter(|slot| fits(slot, doc)) {
             found[i] = slot.take();
@@ -192,7 +192,7 @@ mod tests {
                 Slot::new(ViewId(next), &session)
             });
             for (slot, doc) in slots.iter_mut().zip(&wanted) {
-                slot.submit(doc, SceneDoc::clone, Role::Contender, &session);
+                slot.submit(doc, SceneDoc::clone, Role::View, &session);
             }
             (slots, left)
         };
@@ -202,10 +202,10 @@ mod tests {
         // Swapped.
         let (slots, left) = assigned(slots, &[12, 11, 10]);
         assert_eq!((ids(&slots), ids(&left)), (vec![3, 2, 1], vec![]));
-        // The first is gone: the others move up.
+        // The first was removed.
         let (slots, left) = assigned(slots, &[11, 10]);
         assert_eq!((ids(&slots), ids(&left)), (vec![2, 1], vec![3]));
-        // One was edited and one came.
+        // One was edited and one was added.
         let (slots, left) = assigned(slots, &[11, 13, 14]);
         assert_eq!((ids(&slots), ids(&left)), (vec![2, 1, 4], vec![]));
     }

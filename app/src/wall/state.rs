@@ -1,4 +1,4 @@
-//! What the wall holds between frames.
+//! State of the comparison between frames.
 
 mod pictures;
 
@@ -21,50 +21,50 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a drag on a picture does.
+/// Action of a left drag on an image.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
-    /// Turns the camera.
+    /// Orbits the camera.
     #[default]
     Camera,
-    /// Draws the box that numbers are about.
+    /// Draws the box to which statistics are restricted.
     Region,
 }
 
-/// The views, the pictures of them that hang, and the numbers about them.
+/// Views of the document with their textures and statistics.
 pub struct Wall {
     slots: Vec<Slot>,
     next_id: u32,
-    /// The document that the slots were last brought in line with.
+    /// Last submitted document.
     doc: Arc<SceneDoc>,
-    /// Whether everything has to start over.
+    /// Whether the next submission restarts all views.
     forgotten: bool,
     selected: usize,
     reference: ReferenceRenders,
     analysis_worker: AnalysisWorker,
     newest: Arc<Analysis>,
-    /// The part of it that describes what is shown.
+    /// Numbers of `newest` that are valid for the images shown.
     analysis: Arc<Analysis>,
-    /// Whether nothing is rendered until it is told to go on: views and reference alike.
+    /// Whether views and reference are paused.
     paused: bool,
-    /// What the analyst was last asked about.
+    /// Inputs of the last requested analysis.
     asked: Option<Asked>,
     uploaded: BTreeMap<PictureId, UploadedImage>,
     zoom: ImageView,
     own_zoom: BTreeMap<PictureId, ImageView>,
-    /// Where the divider of a wipe stands, as a share of the width.
+    /// Position of the divider, as a fraction of the width.
     pub split: f32,
-    /// Which sight a flip shows.
+    /// Index of the image shown one at a time.
     pub flipped: usize,
-    /// What a drag does.
+    /// Action of a left drag.
     pub tool: Tool,
-    /// The pixel whose samples are shown.
+    /// Picked pixel, column and row.
     pub picked: Option<[usize; 2]>,
-    /// The slice of majorants that is drawn over views, if any.
+    /// Depth of the majorant slice drawn over the views, from 0 to 1; `None` for no slice.
     pub majorant_slice: Option<f32>,
 }
 
-/// What numbers depend on.
+/// Inputs of an analysis.
 struct Asked {
     doc: Arc<SceneDoc>,
     snapshots: Vec<Arc<Snapshot>>,
@@ -83,10 +83,10 @@ impl Asked {
 }
 
 impl Wall {
-    /// A wall with nothing on it.
+    /// Creates an empty comparison; `repaint` requests a repaint of the window.
     ///
     /// # Errors
-    /// When the operating system refuses a thread.
+    /// Failure of the operating system to start a thread.
     pub fn new(repaint: impl Fn() + Send + Sync + 'static) -> std::io::Result<Self> {
         Ok(Self {
             slots: Vec::new(),
@@ -111,7 +111,7 @@ impl Wall {
         })
     }
 
-    /// Brings session and slots in line with a document. Returns a reference that has to be read.
+    /// Updates session and slots for a document. Returns a reference file that has to be read.
     pub fn submit(
         &mut self,
         doc: &SceneDoc,
@@ -136,7 +136,7 @@ impl Wall {
         }
         session.set_fairness(doc.compare.fairness);
         for (slot, wanted) in self.slots.iter_mut().zip(&wanted) {
-            slot.submit(wanted, &resolved, Role::Contender, session);
+            slot.submit(wanted, &resolved, Role::View, session);
         }
         self.selected = self.selected.min(self.slots.len().saturating_sub(1));
         let file = self.reference.submit(doc, base, resolved, (session, self.paused));
@@ -144,19 +144,19 @@ impl Wall {
         file
     }
 
-    /// Whether nothing is rendered until it is told to go on.
+    /// Whether rendering is paused.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.paused
     }
 
-    /// Whether any view or the reference has not come to its end.
+    /// Whether any view or the reference is unfinished.
     #[must_use]
     pub fn is_unfinished(&self) -> bool {
         self.slots.iter().chain(self.reference.rendered()).any(Slot::is_unfinished)
     }
 
-    /// Pauses every view and the reference, those that are still to come as well, or lets all go on.
+    /// Pauses or resumes all views and the reference, including those added later.
     pub fn set_paused(&mut self, paused: bool, session: &Session) {
         self.paused = paused;
         for id in self.ids() {
@@ -164,7 +164,7 @@ impl Wall {
         }
     }
 
-    /// Everything starts over at the next submission, as for another scene.
+    /// Resets the views for another scene: all restart at the next submission.
     pub fn forget(&mut self) {
         self.forgotten = true;
         self.slots.iter_mut().for_each(Slot::forget);
@@ -174,7 +174,7 @@ impl Wall {
         self.selected = 0;
     }
 
-    /// Takes note of what session and threads have done; `prints` are new pictures.
+    /// Updates the state from session and worker threads; `prints` are new images.
     pub fn update(
         &mut self,
         ctx: &Context,
@@ -199,15 +199,15 @@ impl Wall {
         self.ask();
     }
 
-    /// Names the image that view A shows.
+    /// Fingerprint of the image of view A.
     fn target(&self) -> Option<String> {
         let current = self.slots.first().and_then(Slot::picture).map(|snapshot| snapshot.target.clone());
         current.filter(|t| !t.is_empty())
     }
 
-    /// Asks the analyst again if anything has changed that numbers depend on.
+    /// Requests an analysis if its inputs have changed.
     fn ask(&mut self) {
-        // A click may have met the old picture of a film that is smaller now.
+        // The pixel may have been picked on an older, larger image.
         let film = [self.doc.film.width as usize, self.doc.film.height as usize];
         self.picked = self.picked.filter(|[x, y]| *x < film[0] && *y < film[1]);
         let experiment = self.experiment();
@@ -244,7 +244,7 @@ impl Wall {
             })
     }
 
-    /// The comparison as it stands.
+    /// The comparison with its current snapshots.
     #[must_use]
     pub fn experiment(&self) -> Experiment {
         let view = |(i, slot): (usize, &Slot)| {
@@ -259,14 +259,14 @@ impl Wall {
         }
     }
 
-    /// Everything that the arrangement shows, in its order.
+    /// Images shown by the arrangement, in order.
     #[must_use]
     pub fn pictures_shown(&self) -> Vec<PictureId> {
         if WindowDoc::of(&self.doc).arrangement == Arrangement::Difference && self.slots.len() > 1 {
             return vec![PictureId::Difference];
         }
         let mut pictures_shown: Vec<PictureId> = (0..self.slots.len()).map(PictureId::View).collect();
-        // A view that is the reference is on the wall already. Others have their place before they have a picture.
+        // A view that is the reference is shown already. Other references have a cell even without an image.
         let own =
             matches!(self.doc.compare.reference, ReferenceDoc::Render { .. } | ReferenceDoc::File { .. });
         if own && self.map().is_none() {
@@ -275,18 +275,18 @@ impl Wall {
         pictures_shown
     }
 
-    /// The map that is shown instead of the pictures.
+    /// Map shown instead of the images.
     #[must_use]
     pub fn map(&self) -> Option<&'static maps::Map> {
         let window = WindowDoc::of(&self.doc);
         match (window.arrangement, window.layer.0.as_str()) {
-            // A difference is a map of its own, signed unless another was chosen.
+            // A difference is shown as the signed error map unless another map is chosen.
             (Arrangement::Difference, id) if id == Layer::PICTURE => maps::find("error"),
             (_, id) => maps::find(id),
         }
     }
 
-    /// What the developer shall do.
+    /// Request to the tone mapper.
     #[must_use]
     pub fn order(&self) -> Order {
         let ordered = |(number, slot): (usize, &Slot)| OrderedView {
@@ -308,7 +308,7 @@ impl Wall {
         }
     }
 
-    /// How a sight's radiance is shown.
+    /// Display settings of an image.
     #[must_use]
     pub fn display(&self, picture: PictureId) -> ViewDoc {
         let own = match picture {
@@ -318,65 +318,65 @@ impl Wall {
         own.unwrap_or_else(|| self.doc.view.clone())
     }
 
-    /// The view that the method column edits.
+    /// Index of the view that the method column edits.
     #[must_use]
     pub fn selected(&self) -> usize {
         self.selected
     }
 
-    /// Chooses the view that the method column edits.
+    /// Selects the view that the method column edits.
     pub fn select(&mut self, view: usize) {
         self.selected = view.min(self.slots.len().saturating_sub(1));
     }
 
-    /// The views.
+    /// Slots of the views, in order of the document.
     #[must_use]
     pub fn slots(&self) -> &[Slot] {
         &self.slots
     }
 
-    /// The slot that the method column edits.
+    /// Slot of the selected view.
     #[must_use]
     pub fn selected_slot(&self) -> Option<&Slot> {
         self.slots.get(self.selected)
     }
 
-    /// The newest numbers, as far as they describe what is shown: see [`Provenance`].
+    /// Newest statistics that are valid for the images shown, see [`Provenance`].
     #[must_use]
     pub fn analysis(&self) -> &Arc<Analysis> {
         &self.analysis
     }
 
-    /// A reference file is read again, whatever is known of it.
+    /// Reads the reference file again at the next submission.
     pub fn reread_reference(&mut self) {
         self.reference.forget_file();
         self.forgotten = true;
     }
 
-    /// The session's views, that of the reference too.
+    /// Session ids of all views and of the rendered reference.
     #[must_use]
     pub fn ids(&self) -> Vec<ViewId> {
         self.slots.iter().map(|slot| slot.id).chain(self.reference.id()).collect()
     }
 
-    /// The view of the session that renders the reference, if one does.
+    /// Slot of the rendered reference, if there is one.
     #[must_use]
     pub fn rendered_reference(&self) -> Option<&Slot> {
         self.reference.rendered()
     }
 
-    /// What there is to say about the reference.
+    /// Status of the reference.
     #[must_use]
     pub fn reference_state(&self) -> ReferenceState {
         self.reference.state(&self.doc, self.target().as_deref())
     }
 
-    /// A reference was read, or not.
+    /// Stores the result of reading a reference file.
     pub fn finish_reading(&mut self, path: &Path, read: Result<Reference, String>) {
         self.reference.finish_reading(path, read);
     }
 
-    /// Pan and zoom of a sight.
+    /// Pan and zoom of an image.
     #[must_use]
     pub fn zoom_of(&self, picture: PictureId) -> ImageView {
         match WindowDoc::of(&self.doc).own_zoom {
@@ -385,7 +385,7 @@ impl Wall {
         }
     }
 
-    /// Pans and zooms a sight, and with it all others unless each has a zoom of its own.
+    /// Sets pan and zoom of an image, or of all images unless each has its own.
     pub fn set_zoom(&mut self, picture: PictureId, view: ImageView) {
         if WindowDoc::of(&self.doc).own_zoom {
             self.own_zoom.insert(picture, view);
@@ -394,7 +394,7 @@ impl Wall {
         }
     }
 
-    /// Pans and zooms all.
+    /// Sets pan and zoom of all images.
     pub fn set_zoom_of_all(&mut self, view: ImageView) {
         self.zoom = view;
         self.own_zoom.clear();

@@ -16,7 +16,7 @@ pub struct Subject {
     /// Library that locates the files of the scene.
     pub library: Library,
     /// Candidates in order; ratios are relative to the first.
-    pub entrants: Vec<Candidate>,
+    pub candidates: Vec<Candidate>,
     /// Reference from which errors are measured.
     pub reference: ReferencePlan,
 }

@@ -99,31 +99,31 @@ pub fn run(plan: &Plan, mut progress: impl FnMut(&Progress)) -> Result<Vec<Row>,
         .num_threads(threads)
         .build()
         .map_err(|e| BenchError::Threads { threads, reason: e.to_string() })?;
-    let of = plan.subjects.iter().map(|s| 1 + plan.repeats as usize * s.entrants.len()).sum();
+    let of = plan.subjects.iter().map(|s| 1 + plan.repeats as usize * s.candidates.len()).sum();
     let mut rows = Vec::new();
     let mut done = 0;
     for subject in &plan.subjects {
         // A candidate that is biased on a scene has no efficiency there: its error does not fall with time.
-        let unbiased = subject.entrants.iter().filter(|entrant| entrant.bias(&subject.doc).is_none());
-        let entrants: Vec<&Candidate> = unbiased.collect();
-        let runner = Runner::new(subject, &entrants, &pool)?;
+        let unbiased = subject.candidates.iter().filter(|candidate| candidate.bias(&subject.doc).is_none());
+        let candidates: Vec<&Candidate> = unbiased.collect();
+        let runner = Runner::new(subject, &candidates, &pool)?;
         let mut report = |next: String, rows: &[Row]| {
             progress(&Progress { done, of, next, rows });
             done += 1;
         };
         report(format!("{}  reference", subject.name), &[]);
         let reference = runner.reference(plan.repeats)?;
-        let mut trials = vec![Vec::new(); entrants.len()];
+        let mut trials = vec![Vec::new(); candidates.len()];
         for repeat in 0..plan.repeats {
-            for (entrant, trials) in entrants.iter().zip(&mut trials) {
-                report(format!("{}  {} {}/{}", subject.name, entrant.name, repeat + 1, plan.repeats), &[]);
-                trials.push(runner.trial(entrant, u64::from(repeat), plan.budget, &reference)?);
+            for (candidate, trials) in candidates.iter().zip(&mut trials) {
+                report(format!("{}  {} {}/{}", subject.name, candidate.name, repeat + 1, plan.repeats), &[]);
+                trials.push(runner.trial(candidate, u64::from(repeat), plan.budget, &reference)?);
             }
         }
         let first = rows.len();
-        rows.extend(entrants.iter().zip(&trials).map(|(entrant, own)| {
+        rows.extend(candidates.iter().zip(&trials).map(|(candidate, own)| {
             let about = (threads, reference.origin.clone());
-            Row::new(subject.name.clone(), entrant.name.clone(), own, &trials[0], about)
+            Row::new(subject.name.clone(), candidate.name.clone(), own, &trials[0], about)
         }));
         progress(&Progress { done, of, next: String::new(), rows: &rows[first..] });
     }
@@ -139,7 +139,7 @@ struct Runner<'a> {
 impl<'a> Runner<'a> {
     fn new(subject: &'a Subject, unbiased: &[&Candidate], pool: &'a ThreadPool) -> Result<Self, BenchError> {
         let scene = subject.name.clone();
-        let biased = subject.entrants.first().and_then(|entrant| entrant.bias(&subject.doc));
+        let biased = subject.candidates.first().and_then(|candidate| candidate.bias(&subject.doc));
         match biased.filter(|_| unbiased.is_empty()) {
             Some(reason) => Err(BenchError::Biased { scene, reason }),
             None => Ok(Self { subject, scene: Self::frozen(subject, &subject.doc, pool)?, pool }),
@@ -199,13 +199,13 @@ impl<'a> Runner<'a> {
 
     fn trial(
         &self,
-        entrant: &Candidate,
+        candidate: &Candidate,
         repeat: u64,
         budget: Budget,
         reference: &Reference,
     ) -> Result<Trial, BenchError> {
         let seed = self.subject.doc.render.seed.wrapping_add(repeat);
-        let batch = self.batch(entrant.entry, &entrant.settings, seed, budget);
+        let batch = self.batch(candidate.entry, &candidate.settings, seed, budget);
         let images = self.pool.install(|| Images::of(&batch.film));
         let (width, height) = (batch.film.width, batch.film.height);
         let picture = Picture { width, height, pixels: &images.mean };
@@ -254,8 +254,8 @@ mod tests {
     fn subject(reference: ReferencePlan) -> Subject {
         let text = "majorant = 1\nfilm = { width = 4, height = 3 }\nrender = { seed = 5 }\nestimator = { id = \"nee\" }";
         let doc = scene_file::parse(text, "bench").unwrap();
-        let entrants = vec![Candidate::of(estimator::find("nee").unwrap(), &doc)];
-        Subject { name: "bench".into(), doc, library: Library::default(), entrants, reference }
+        let candidates = vec![Candidate::of(estimator::find("nee").unwrap(), &doc)];
+        Subject { name: "bench".into(), doc, library: Library::default(), candidates, reference }
     }
 
     fn refused(seed: Option<u64>, unfit: Option<&'static str>) -> Option<String> {

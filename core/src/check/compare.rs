@@ -58,7 +58,7 @@ const LARGEST_SKEWNESS: f64 = 1.0;
 /// Whether the scatter of a series of batch means is a reliable noise estimate: most batches have a
 /// contribution, and their distribution has no long tail. Otherwise the observed scatter does not reveal
 /// missed contributions, and a block is tested as part of the whole only.
-pub(super) fn knows_its_noise(series: &[f64]) -> bool {
+pub(super) fn noise_is_reliable(series: &[f64]) -> bool {
     let n = series.len() as f64;
     let seen = series.iter().filter(|mean| **mean != 0.0).count();
     let (mean, _) = mean_and_error(series);
@@ -74,7 +74,7 @@ const TOO_NOISY: f64 = 0.25;
 /// Relative bias of the image mean that would be detected with probability [`super::stats::POWER`].
 fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
     let Some(Value { mean, error }) = values(image).pop() else { return f64::INFINITY };
-    if !image.series.last().is_some_and(|s| knows_its_noise(s)) {
+    if !image.series.last().is_some_and(|s| noise_is_reliable(s)) {
         return f64::INFINITY;
     }
     let whole = Comparison::new(Value { mean, error }, expected);
@@ -83,7 +83,7 @@ fn detectable(image: &Batches, expected: Value, critical: f64) -> f64 {
 
 /// z of every pair of values; the last is that of the whole image.
 fn all_z(image: &Batches, other: Option<&Batches>, a: &[Value], b: &[Value]) -> Vec<f64> {
-    let known = |image: &Batches, i: usize| image.series.get(i).is_some_and(|s| knows_its_noise(s));
+    let known = |image: &Batches, i: usize| image.series.get(i).is_some_and(|s| noise_is_reliable(s));
     (a.iter().zip(b).enumerate())
         .filter(|(i, _)| known(image, *i) && other.is_none_or(|o| known(o, *i)))
         .map(|(_, (a, b))| Comparison::new(*a, *b).z())
@@ -157,7 +157,7 @@ pub(super) fn pairwise(case: &Case, images: &[(&'static Entry, Batches)], critic
     let pool = |except: usize| {
         let others = images.iter().zip(&all).enumerate().filter(|(j, _)| *j != except);
         let known =
-            others.filter(|(_, ((_, image), _))| image.series.last().is_some_and(|s| knows_its_noise(s)));
+            others.filter(|(_, ((_, image), _))| image.series.last().is_some_and(|s| noise_is_reliable(s)));
         pooled(known.filter_map(|(_, (_, values))| values.last()))
     };
     let expected: Vec<Value> = (0..images.len()).map(pool).collect();

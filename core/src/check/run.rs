@@ -148,7 +148,7 @@ impl Check {
             let (mean, error) = image.whole();
             let found = (critical + power_t(DOF)) * error / mean.abs().max(f64::MIN_POSITIVE);
             // More paths shorten a long tail.
-            let blind = !image.series.last().is_some_and(|s| compare::knows_its_noise(s));
+            let blind = !image.series.last().is_some_and(|s| compare::noise_is_reliable(s));
             let least = if blind { (4 * image.spp).min(BLIND_PATHS / per_sample) as f64 } else { 0.0 };
             (share * (found / (self.effort.detect * MARGIN)).powi(2) * image.spp as f64).ceil().max(least)
         };

@@ -1,7 +1,7 @@
 //! A comparison with its current images, the input of rankings, maps and reports.
 
 use super::curve::{Checkpoints, Point};
-use super::ranking::{self, Against, Contender, Opponent, Question, Standing};
+use super::ranking::{self, ComparedWith, Comparison, Question, RankedView, Standing};
 use super::reference::Reference;
 use crate::film::Snapshot;
 use crate::measure::{Measure, Region};
@@ -72,9 +72,9 @@ impl Experiment {
         (!region.clipped(film.width as usize, film.height as usize).is_empty()).then_some(region)
     }
 
-    fn contenders(&self) -> Vec<Contender<'_>> {
+    fn ranked_views(&self) -> Vec<RankedView<'_>> {
         let views = self.views.iter().map(|(_, v)| v);
-        views.map(|v| Contender { label: &v.label, doc: &v.doc, snapshot: &v.snapshot }).collect()
+        views.map(|v| RankedView { label: &v.label, doc: &v.doc, snapshot: &v.snapshot }).collect()
     }
 
     fn question(&self, measures: Vec<&'static Measure>) -> Question<'_> {
@@ -95,7 +95,7 @@ impl Experiment {
     /// Ranks the views.
     #[must_use]
     pub fn rank(&self, measures: Vec<&'static Measure>) -> Vec<Standing> {
-        self.rank_against(measures, &self.opponents())
+        self.rank_against(measures, &self.comparisons())
     }
 
     /// Whether errors are measured: against a reference, or against the mean of the other unbiased views if
@@ -105,34 +105,38 @@ impl Experiment {
         self.reference.is_some() || self.doc.compare.reference == ReferenceDoc::Pooled
     }
 
-    /// Ranks the views with the result of [`Self::opponents`], since pooling images is expensive.
+    /// Ranks the views with the result of [`Self::comparisons`], since pooling images is expensive.
     #[must_use]
-    pub fn rank_against(&self, measures: Vec<&'static Measure>, opponents: &[Opponent<'_>]) -> Vec<Standing> {
+    pub fn rank_against(
+        &self,
+        measures: Vec<&'static Measure>,
+        comparisons: &[Comparison<'_>],
+    ) -> Vec<Standing> {
         let measures = if self.has_errors() { measures } else { Vec::new() };
-        ranking::rank(&self.contenders(), &self.question(measures), opponents)
+        ranking::rank(&self.ranked_views(), &self.question(measures), comparisons)
     }
 
     /// Comparison image of every view, in the order of `views`.
     #[must_use]
-    pub fn opponents(&self) -> Vec<Opponent<'_>> {
-        ranking::opponents(&self.contenders(), &self.question(Vec::new()))
+    pub fn comparisons(&self) -> Vec<Comparison<'_>> {
+        ranking::comparisons(&self.ranked_views(), &self.question(Vec::new()))
     }
 
     /// Comparison image of a view, by index: the reference, or the mean of the other unbiased views.
     #[must_use]
-    pub fn held_against(&self, view: usize) -> (Against, Option<Cow<'_, Reference>>) {
+    pub fn compared_with(&self, view: usize) -> (ComparedWith, Option<Cow<'_, Reference>>) {
         let place = self.views.iter().position(|(n, _)| *n == view).unwrap_or(usize::MAX);
-        ranking::opponent(&self.contenders(), place, &self.question(Vec::new()))
+        ranking::comparison(&self.ranked_views(), place, &self.question(Vec::new()))
     }
 
-    /// Image against which the errors of a view are measured, by index: [`Self::held_against`] if its noise
+    /// Image against which the errors of a view are measured, by index: [`Self::compared_with`] if its noise
     /// is low enough ([`ranking::can_measure`]); `None` without a reference.
     #[must_use]
     pub fn measured_against(&self, view: usize) -> Option<Cow<'_, Reference>> {
         let found = self.views.iter().find(|(n, _)| *n == view).map(|(_, v)| v)?;
-        let opponent = self.held_against(view);
-        let usable = self.has_errors() && ranking::can_measure(&found.snapshot, &opponent, self.region());
-        opponent.1.filter(|_| usable)
+        let comparison = self.compared_with(view);
+        let usable = self.has_errors() && ranking::can_measure(&found.snapshot, &comparison, self.region());
+        comparison.1.filter(|_| usable)
     }
 
     /// Error curve of a view against the reference; empty without one.

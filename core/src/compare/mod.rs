@@ -28,6 +28,6 @@ pub use estimate::{Estimate, RegionNoise};
 pub use experiment::{Experiment, View, label, view_colour};
 pub use fitness::{unfit_document, unfit_picture};
 pub use open::{ReferenceError, open, seed_of};
-pub use ranking::{Against, Contender, Opponent, Question, Standing, can_measure, opponents, rank};
+pub use ranking::{ComparedWith, Comparison, Question, RankedView, Standing, can_measure, comparisons, rank};
 pub use reference::Reference;
 pub use run::{Finished, LEAST_SAMPLES, Progress, RunError, reference_doc, run};

@@ -93,7 +93,7 @@ pub fn open(
     reference.target = Some(target);
     let seed = seed_of(&path);
     let shared: Vec<String> = (0..doc.view_count())
-        .filter(|view| seed.is_some() && doc.contender(*view).map(|c| c.seed) == seed)
+        .filter(|view| seed.is_some() && doc.view_overrides(*view).map(|c| c.seed) == seed)
         .map(label)
         .collect();
     if let (Some(seed), false) = (seed, shared.is_empty()) {

@@ -13,7 +13,7 @@ use std::borrow::Cow;
 
 /// A view in a ranking.
 #[derive(Clone, Copy, Debug)]
-pub struct Contender<'a> {
+pub struct RankedView<'a> {
     /// A, B, C, …
     pub label: &'a str,
     /// Document that it renders.
@@ -22,7 +22,7 @@ pub struct Contender<'a> {
     pub snapshot: &'a Snapshot,
 }
 
-impl Contender<'_> {
+impl RankedView<'_> {
     /// Display name of the estimator.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -67,7 +67,7 @@ pub struct Question<'a> {
 
 /// Comparison image of a view.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Against {
+pub enum ComparedWith {
     /// The reference, by its origin.
     Reference(String),
     /// The mean of the other unbiased views, by their labels.
@@ -110,7 +110,7 @@ pub struct Standing {
     /// 95 % interval of `speedup`.
     pub speedup_interval: [f64; 2],
     /// Image that it was compared with.
-    pub against: Against,
+    pub against: ComparedWith,
     /// Result of that comparison.
     pub agreement: Option<Agreement>,
     /// Reason why its document biases it, if so.
@@ -142,27 +142,27 @@ impl Standing {
 const INTERVAL: f64 = 1.959_964;
 
 /// A comparison image with its description.
-pub type Opponent<'a> = (Against, Option<Cow<'a, Reference>>);
+pub type Comparison<'a> = (ComparedWith, Option<Cow<'a, Reference>>);
 
 /// Comparison images of all views.
 #[must_use]
-pub fn opponents<'a>(contenders: &[Contender<'_>], question: &Question<'a>) -> Vec<Opponent<'a>> {
-    (0..contenders.len()).map(|i| opponent(contenders, i, question)).collect()
+pub fn comparisons<'a>(ranked_views: &[RankedView<'_>], question: &Question<'a>) -> Vec<Comparison<'a>> {
+    (0..ranked_views.len()).map(|i| comparison(ranked_views, i, question)).collect()
 }
 
 /// Ranks the views by comparison with their opponents. Views with fewer than three samples per pixel have no
 /// statistics yet and are omitted.
 #[must_use]
 pub fn rank(
-    contenders: &[Contender<'_>],
+    ranked_views: &[RankedView<'_>],
     question: &Question<'_>,
-    opponents: &[Opponent<'_>],
+    comparisons: &[Comparison<'_>],
 ) -> Vec<Standing> {
-    let baseline = contenders.get(question.baseline);
+    let baseline = ranked_views.get(question.baseline);
     let baseline = baseline.and_then(|b| Some((efficiency(b, question.region)?, b.snapshot.target.as_str())));
-    let views = contenders.iter().zip(opponents).enumerate();
+    let views = ranked_views.iter().zip(comparisons).enumerate();
     // Errors can be measured against a biased view, but it gives no verdict.
-    let promoted = question.reference_view.and_then(|v| contenders.get(v));
+    let promoted = question.reference_view.and_then(|v| ranked_views.get(v));
     let judged = promoted.is_none_or(|view| view.unfit_as_reference().is_none());
     let standings = views.filter_map(|(i, (view, held))| standing(view, i, held, question, baseline));
     standings.map(|s| Standing { agreement: s.agreement.filter(|_| judged), ..s }).collect()
@@ -181,7 +181,7 @@ struct Efficiency {
     relative_error: f64,
 }
 
-fn efficiency(view: &Contender<'_>, region: Option<Region>) -> Option<Efficiency> {
+fn efficiency(view: &RankedView<'_>, region: Option<Region>) -> Option<Efficiency> {
     let noise = RegionNoise::of(&Estimate::of(view.snapshot)?, region_of(region, view.snapshot), |_| true);
     let (variance, error) = noise.pixel_variance();
     let value = 1.0 / (variance * view.snapshot.cpu_seconds);
@@ -189,14 +189,14 @@ fn efficiency(view: &Contender<'_>, region: Option<Region>) -> Option<Efficiency
 }
 
 fn standing(
-    view: &Contender<'_>,
+    view: &RankedView<'_>,
     index: usize,
-    opponent: &Opponent<'_>,
+    comparison: &Comparison<'_>,
     question: &Question<'_>,
     baseline: Option<(Efficiency, &str)>,
 ) -> Option<Standing> {
     let snapshot = view.snapshot;
-    let (against, held) = opponent;
+    let (against, held) = comparison;
     let estimate = Estimate::of(snapshot)?;
     let region = region_of(question.region, snapshot);
     let noise = RegionNoise::of(&estimate, region, |_| true);
@@ -214,7 +214,7 @@ fn standing(
         None => (f64::NAN, [f64::NAN; 2]),
     };
     let agreement = held.as_ref().and_then(|r| agreement(&estimate, &r.estimate(), region));
-    let usable = !question.measures.is_empty() && can_measure(snapshot, opponent, question.region);
+    let usable = !question.measures.is_empty() && can_measure(snapshot, comparison, question.region);
     let held = held.as_ref().filter(|_| usable);
     let errors = held.map(|r| errors(&estimate, r, region, &question.measures)).unwrap_or_default();
     let pixels = ((region.x1 - region.x0) * (region.y1 - region.y0)) as u64;
@@ -252,9 +252,9 @@ const WORSE: f64 = 2.0;
 /// whose noise is stated beside every error. The mean of the other views has to have known noise, of about
 /// the same level as the view's: an error against a much noisier image would be the noise of that image.
 #[must_use]
-pub fn can_measure(view: &Snapshot, (against, held): &Opponent<'_>, region: Option<Region>) -> bool {
+pub fn can_measure(view: &Snapshot, (against, held): &Comparison<'_>, region: Option<Region>) -> bool {
     let (Some(held), Some(estimate)) = (held, Estimate::of(view)) else { return false };
-    if !matches!(against, Against::Others(_)) {
+    if !matches!(against, ComparedWith::Others(_)) {
         return true;
     }
     let region = region_of(region, view);
@@ -278,31 +278,31 @@ fn errors(
 }
 
 /// Comparison image of a view, with its description.
-pub(super) fn opponent<'a>(
-    contenders: &[Contender<'_>],
+pub(super) fn comparison<'a>(
+    ranked_views: &[RankedView<'_>],
     index: usize,
     question: &Question<'a>,
-) -> Opponent<'a> {
-    let Some(view) = contenders.get(index) else {
-        return (Against::Nothing("the view does not exist"), None);
+) -> Comparison<'a> {
+    let Some(view) = ranked_views.get(index) else {
+        return (ComparedWith::Nothing("the view does not exist"), None);
     };
     if question.reference_view == Some(index) {
-        return (Against::Nothing("it is the reference"), None);
+        return (ComparedWith::Nothing("it is the reference"), None);
     }
     if let Some(reference) = question.reference {
-        let promoted = question.reference_view.and_then(|v| contenders.get(v));
+        let promoted = question.reference_view.and_then(|v| ranked_views.get(v));
         if promoted.is_some_and(|p| p.doc.render.seed == view.doc.render.seed) {
-            return (Against::Nothing("it has the seed of the reference: choose another seed"), None);
+            return (ComparedWith::Nothing("it has the seed of the reference: choose another seed"), None);
         }
         if reference.seed == Some(view.doc.render.seed) {
-            return (Against::Nothing("it has the seed of the reference: choose another seed"), None);
+            return (ComparedWith::Nothing("it has the seed of the reference: choose another seed"), None);
         }
         if reference.fits(&view.snapshot.target) {
-            return (Against::Reference(reference.origin.clone()), Some(Cow::Borrowed(reference)));
+            return (ComparedWith::Reference(reference.origin.clone()), Some(Cow::Borrowed(reference)));
         }
-        return (Against::Nothing("the reference shows a different image"), None);
+        return (ComparedWith::Nothing("the reference shows a different image"), None);
     }
-    let others: Vec<&Contender<'_>> = contenders
+    let others: Vec<&RankedView<'_>> = ranked_views
         .iter()
         .enumerate()
         .filter(|(j, other)| *j != index && other.unfit_as_reference().is_none() && view.is_comparable(other))
@@ -310,7 +310,7 @@ pub(super) fn opponent<'a>(
         .filter(|other| Estimate::of(other.snapshot).is_some())
         .collect();
     let mut seeds = Vec::new();
-    let others: Vec<&Contender<'_>> = others
+    let others: Vec<&RankedView<'_>> = others
         .into_iter()
         // Images with equal random numbers carry no more information than one of them.
         .filter(|other| {
@@ -322,7 +322,9 @@ pub(super) fn opponent<'a>(
     let labels = others.iter().map(|o| o.label).collect::<Vec<_>>().join(", ");
     let snapshots: Vec<&Snapshot> = others.iter().map(|o| o.snapshot).collect();
     match Reference::pooled(&snapshots, labels.clone()) {
-        Some(pooled) => (Against::Others(labels), Some(Cow::Owned(pooled))),
-        None => (Against::Nothing("no other unbiased view shows the same image with its own seed"), None),
+        Some(pooled) => (ComparedWith::Others(labels), Some(Cow::Owned(pooled))),
+        None => {
+            (ComparedWith::Nothing("no other unbiased view shows the same image with its own seed"), None)
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Tests of the ranking on images with known noise.
 
-use super::{Against, Contender, Question, Reference, Standing, Verdict, opponents, rank};
+use super::{ComparedWith, Question, RankedView, Reference, Standing, Verdict, comparisons, rank};
 use crate::film::{Film, Images, Snapshot, Tally};
 use crate::math::Sampler;
 use crate::measure;
@@ -57,9 +57,12 @@ fn question<'a>() -> Question<'a> {
 
 fn ranked(views: &[(SceneDoc, Snapshot)], question: &Question<'_>) -> Vec<Standing> {
     let labels = ["A", "B", "C"];
-    let contenders: Vec<Contender<'_>> =
-        views.iter().zip(labels).map(|((doc, snapshot), label)| Contender { label, doc, snapshot }).collect();
-    rank(&contenders, question, &opponents(&contenders, question))
+    let ranked_views: Vec<RankedView<'_>> = views
+        .iter()
+        .zip(labels)
+        .map(|((doc, snapshot), label)| RankedView { label, doc, snapshot })
+        .collect();
+    rank(&ranked_views, question, &comparisons(&ranked_views, question))
 }
 
 #[test]
@@ -91,7 +94,7 @@ fn against_much_noisier_views_nothing_is_measured() {
     // A black view has no noise to correct for.
     let views = [(doc(0), picture(1, 64, 0.0)), (doc(1), picture(2, 1, -1.0))];
     let standings = ranked(&views, &question());
-    assert_eq!(standings[0].against, Against::Others("B".into()));
+    assert_eq!(standings[0].against, ComparedWith::Others("B".into()));
     assert!(standings.iter().all(|s| s.errors.is_empty()));
     // A chosen reference is always used, and its noise is stated.
     let noisy = Arc::new(picture(3, 1, 0.0));
@@ -138,8 +141,8 @@ fn a_biased_view_is_excluded_from_pools_and_detected() {
     let standings = ranked(&views, &question());
     let verdicts: Vec<Verdict> = standings.iter().map(Standing::verdict).collect();
     assert_eq!(verdicts, [Verdict::Agrees, Verdict::Agrees, Verdict::Differs]);
-    assert_eq!(standings[0].against, Against::Others("B".into()));
-    assert_eq!(standings[2].against, Against::Others("A, B".into()));
+    assert_eq!(standings[0].against, ComparedWith::Others("B".into()));
+    assert_eq!(standings[2].against, ComparedWith::Others("A, B".into()));
     let found = standings[2].agreement.unwrap();
     assert!((found.difference - 0.1).abs() < 4.0 * found.error, "{found:?}");
 }
@@ -150,7 +153,7 @@ fn views_are_compared_only_with_the_same_image_under_other_random_numbers() {
         let s = &ranked(views, question)[0];
         assert!(s.errors.is_empty() && s.agreement.is_none());
         match &s.against {
-            Against::Nothing(why) => *why,
+            ComparedWith::Nothing(why) => *why,
             other => panic!("{other:?}"),
         }
     };
@@ -180,14 +183,14 @@ fn only_sound_pictures_are_pooled() {
         edit(doc, snapshot);
         ranked(&views, &question())[0].against.clone()
     };
-    assert_eq!(against(|_, _| ()), Against::Others("B, C".into()));
-    assert_eq!(against(|_, s| s.tally.non_finite = 1), Against::Others("C".into()));
+    assert_eq!(against(|_, _| ()), ComparedWith::Others("B, C".into()));
+    assert_eq!(against(|_, s| s.tally.non_finite = 1), ComparedWith::Others("C".into()));
     assert_eq!(
         against(|d, _| {
             d.estimator.id = "mitsuba2-volpath".into();
             d.medium.extinction = crate::spectrum::SpectrumDoc::Rgb([1.0, 2.0, 3.0]);
         }),
-        Against::Others("C".into())
+        ComparedWith::Others("C".into())
     );
 }
 

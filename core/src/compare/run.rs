@@ -118,7 +118,7 @@ pub fn run(
         notes.extend(said.filter(|n| !notes.contains(n)).collect::<Vec<_>>());
     }
     let snapshots: Vec<Arc<Snapshot>> = ended.into_iter().filter_map(|s| s.snapshot).collect();
-    let views = running.contenders.iter().zip(&running.checkpoints).zip(&snapshots).enumerate();
+    let views = running.ranked_views.iter().zip(&running.checkpoints).zip(&snapshots).enumerate();
     let views: Vec<(usize, View)> = views
         .map(|(i, ((doc, checkpoints), snapshot))| {
             let (doc, snapshot) = (Arc::clone(doc), Arc::clone(snapshot));
@@ -161,7 +161,8 @@ fn background(doc: &SceneDoc) -> Result<Option<Arc<SceneDoc>>, RunError> {
 #[must_use]
 pub fn reference_doc(doc: &SceneDoc) -> Option<SceneDoc> {
     let mut reference = doc.reference_doc()?;
-    let taken = |seed: u64| (0..doc.view_count()).any(|v| doc.contender(v).is_some_and(|c| c.seed == seed));
+    let taken =
+        |seed: u64| (0..doc.view_count()).any(|v| doc.view_overrides(v).is_some_and(|c| c.seed == seed));
     while taken(reference.render.seed) {
         reference.render.seed += 1;
     }
@@ -170,7 +171,7 @@ pub fn reference_doc(doc: &SceneDoc) -> Option<SceneDoc> {
 
 /// A session that renders the views of a comparison.
 struct Running {
-    contenders: Vec<Arc<SceneDoc>>,
+    ranked_views: Vec<Arc<SceneDoc>>,
     background: Option<Arc<SceneDoc>>,
     checkpoints: Vec<Checkpoints>,
     /// Dropped before the session, whose `wake` would otherwise block forever.
@@ -181,7 +182,7 @@ struct Running {
 impl Running {
     fn start(
         doc: &SceneDoc,
-        contenders: Vec<Arc<SceneDoc>>,
+        ranked_views: Vec<Arc<SceneDoc>>,
         background: Option<Arc<SceneDoc>>,
         library: Library,
     ) -> Result<Self, RunError> {
@@ -193,8 +194,8 @@ impl Running {
         })
         .map_err(RunError::Thread)?;
         session.set_fairness(doc.compare.fairness);
-        let checkpoints = vec![Checkpoints::default(); contenders.len()];
-        let running = Self { contenders, background, checkpoints, woken, session };
+        let checkpoints = vec![Checkpoints::default(); ranked_views.len()];
+        let running = Self { ranked_views, background, checkpoints, woken, session };
         for (id, (doc, role)) in running.jobs().enumerate() {
             let job = Job { doc: Arc::clone(doc), preview: false, role };
             running.session.submit(ViewId(id as u32), job);
@@ -204,7 +205,7 @@ impl Running {
 
     /// All jobs, views first.
     fn jobs(&self) -> impl Iterator<Item = (&Arc<SceneDoc>, Role)> {
-        let views = self.contenders.iter().map(|doc| (doc, Role::Contender));
+        let views = self.ranked_views.iter().map(|doc| (doc, Role::View));
         views.chain(self.background.iter().map(|doc| (doc, Role::Background)))
     }
 
@@ -218,7 +219,7 @@ impl Running {
             let mut fractions = Vec::new();
             for (id, ((doc, _), state)) in self.jobs().zip(&states).enumerate() {
                 if let Status::Failed(message) = &state.status {
-                    let label = if id < self.contenders.len() { label(id) } else { "reference".into() };
+                    let label = if id < self.ranked_views.len() { label(id) } else { "reference".into() };
                     let (estimator, message) = (doc.estimator.id.clone(), message.clone());
                     return Err(RunError::Failed { label, estimator, message });
                 }

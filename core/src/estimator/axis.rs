@@ -53,7 +53,7 @@ impl Axis {
 
     /// Reason why the setting has no effect on an estimator that does not use it.
     #[must_use]
-    pub fn why_unused(self) -> &'static str {
+    pub fn reason_unused(self) -> &'static str {
         match self {
             Self::Absorption => "this estimator always weights scattering by the albedo",
             Self::Distances => "this estimator always uses delta tracking",

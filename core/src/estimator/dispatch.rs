@@ -155,7 +155,7 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let ray = scene.camera.ray(Vec2::new(at.x as f32, at.y as f32) + jitter);
     let wavelengths = (settings.mode == Mode::Spectral).then_some(settings.wavelengths);
     let components = C::sample(u, wavelengths);
-    trace.tell(move || Note::Camera { ray, jitter, u, carried: components.carried() });
+    trace.notify(move || Note::Camera { ray, jitter, u, carried: components.carried() });
     let (medium, settings) = (medium.local(&components), settings.path);
     let radiance = if const { E::SHARED_MAJORANT } {
         let medium = SharedMajorant(medium);
@@ -164,7 +164,7 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
         E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
     };
     let rgb = components.to_film(radiance);
-    trace.tell(move || Note::End { sum: radiance.lanes(), film: rgb });
+    trace.notify(move || Note::End { sum: radiance.lanes(), film: rgb });
     PathEstimate { rgb, lookups: trace.lookups, exceeded: trace.exceeded }
 }
 

@@ -66,9 +66,9 @@ impl Estimator for EquiangularMis {
             if let Some(passage) = &passage
                 && vertices + 1 < world.settings.max_depth
             {
-                trace.tell(move || Note::EquiangularVertex);
+                trace.notify(move || Note::EquiangularVertex);
                 radiance += equiangular_connection(world, passage, path, trace).unwrap_or(C::Radiance::BLACK);
-                trace.tell(move || Note::EquiangularVertexEnds);
+                trace.notify(move || Note::EquiangularVertexEnds);
             }
 
             // Fly to the next real event; every null collision updates the weights.
@@ -144,13 +144,13 @@ fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let (t, density) = passage.sample(pivot, trace.connection.next_1d());
     let mut link = world.pass_by_ratio(&passage.ray, t, path, trace)?;
     let collision = world.collision_at(&passage.ray, t, trace)?;
-    link.scatter_by_angle(&collision, density * probability);
+    link.scatter_equiangular(&collision, density * probability);
 
     let vertex = world.scattering_vertex(collision.point, &passage.ray);
     let aim = world.aim_at(&vertex, light, trace.connection.next_2d())?;
     let nee = aim.density * choice.probability(light, collision.point, by);
-    let link = link.connect_by_angle(&aim.outgoing, LightDensities { nee, eq: aim.density });
+    let link = link.connect_equiangular(&aim.outgoing, LightDensities { nee, eq: aim.density });
     let link = world.arrive(&aim, link, trace)?;
-    let value = link.connected_by_angle(aim.radiance, world.settings.heuristics);
+    let value = link.connected_equiangular(aim.radiance, world.settings.heuristics);
     Some(world.record(Technique::Equiangular, (aim.radiance, aim.outgoing.density), value, trace))
 }

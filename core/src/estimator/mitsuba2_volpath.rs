@@ -88,12 +88,12 @@ impl Estimator for Mitsuba2Volpath {
         let mut radiance = C::Radiance::BLACK;
         let mut phi = Sampled::ONE;
         let mut vertices = 0;
-        trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
+        trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
         loop {
             let surface = world.nearest_surface(&ray, vertices == 0);
             let flight = world.sample_distance(&ray, surface.t(), trace);
             phi *= flight.weight;
-            trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
+            trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
 
             let vertex = if let Some(point) = flight.scattered_at {
                 world.scattering_vertex(point, &ray)
@@ -113,7 +113,7 @@ impl Estimator for Mitsuba2Volpath {
             };
 
             vertices += 1;
-            trace.tell(move || Note::Vertex(WeightRecord::throughput(phi)));
+            trace.notify(move || Note::Vertex(WeightRecord::throughput(phi)));
             if vertices >= world.settings.max_depth || phi.is_zero() || trace.must_stop() {
                 return radiance;
             }
@@ -134,24 +134,24 @@ impl Estimator for Mitsuba2Volpath {
                 let p_e = world.aim_density(&vertex, light.index, ray.direction, end.t());
                 let p_p = outgoing.density;
                 let weight = outgoing.value * p_p / (p_p * p_p + p_e * p_e);
-                trace.tell(move || Note::LightWalk);
+                trace.notify(move || Note::LightWalk);
                 trace.start_side_stream(SideStream::LightWalk);
                 let value = light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
                 radiance += world.record(Technique::Walk, (light.radiance, p_e), value, trace);
-                trace.tell(move || Note::LightWalkEnds);
+                trace.notify(move || Note::LightWalkEnds);
             }
             phi *= outgoing.value / outgoing.density;
-            trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
+            trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
 
             if vertices >= world.settings.first_roulette() {
                 let q = phi.max_component().clamp(0.05, 1.0);
                 let u = trace.sampler.roulette();
-                trace.tell(move || Note::Roulette { u, q });
+                trace.notify(move || Note::Roulette { u, q });
                 if u >= q {
                     return radiance;
                 }
                 phi *= 1.0 / q;
-                trace.tell(move || Note::Weights(WeightRecord::throughput(phi)));
+                trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
             }
         }
     }

@@ -56,7 +56,7 @@ impl Entry {
     /// Reason why a setting has no effect on the estimator; `None` if it has one.
     #[must_use]
     pub fn unused(&self, axis: Axis) -> Option<&'static str> {
-        (!self.uses(axis)).then(|| axis.why_unused())
+        (!self.uses(axis)).then(|| axis.reason_unused())
     }
 
     /// Whether the estimator connects vertices to lights.

@@ -153,16 +153,16 @@ fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N:
     radiance: &mut C::Radiance,
     trace: &mut Trace<'_>,
 ) {
-    trace.tell(move || Note::LightWalk);
+    trace.notify(move || Note::LightWalk);
     trace.start_side_stream(SideStream::LightWalk);
     let surface = world.nearest_surface(ray, false);
     let mut walk = world.walk_to_light(ray, surface.t());
     while let Some(collision) = walk.next_collision(trace, &mut path) {
-        match collision.draw_event_beside(trace) {
+        match collision.draw_event_side_stream(trace) {
             Event::Null => path.null(&collision),
-            Event::Absorption | Event::Scattering => return trace.tell(move || Note::LightWalkEnds),
+            Event::Absorption | Event::Scattering => return trace.notify(move || Note::LightWalkEnds),
         }
     }
     world.add_light_on_ray(Some(vertex), ray, &surface, &path, radiance, trace);
-    trace.tell(move || Note::LightWalkEnds);
+    trace.notify(move || Note::LightWalkEnds);
 }

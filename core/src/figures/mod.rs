@@ -13,15 +13,12 @@
 mod compose;
 mod error;
 mod figure;
-mod figure1;
-mod figure2;
-mod figure3;
-mod figure4;
 mod numbers;
 mod options;
 mod page;
 mod plan;
 mod render;
+mod report_figures;
 mod results;
 mod run;
 pub mod study;
@@ -38,7 +35,8 @@ pub use results::Results;
 pub use run::{Progress, run};
 
 /// All figures of the report, in its order.
-pub static FIGURES: &[Figure] = &[figure1::FIGURE, figure2::FIGURE, figure3::FIGURE, figure4::FIGURE];
+pub static FIGURES: &[Figure] =
+    &[report_figures::FIGURE_1, report_figures::FIGURE_2, report_figures::FIGURE_3, report_figures::FIGURE_4];
 
 /// Figure with the given number.
 #[must_use]

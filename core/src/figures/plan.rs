@@ -35,7 +35,7 @@ impl Strip {
         let mut docs = self.panels.iter().map(|panel| with(scene, panel, REPORT));
         let mut doc = docs.next().transpose()?.unwrap_or_else(|| scene.clone());
         for panel in docs {
-            let Some(mut view) = panel?.contender(0) else { continue };
+            let Some(mut view) = panel?.view_overrides(0) else { continue };
             view.seed = doc.free_seed();
             doc.compare.views.push(view);
         }

@@ -50,7 +50,7 @@ pub fn render(
         .into_iter()
         .next()
         .ok_or(FiguresError::Render { figure: strip.name, source: compare::RunError::Stopped })?;
-    experiment.reference = Some(Arc::new(held_against(&reference)));
+    experiment.reference = Some(Arc::new(compared_with(&reference)));
     let measures = ["relmse", "rmse"].into_iter().filter_map(measure::find).collect();
     let standings = experiment.rank(measures);
     Ok(Rendered { strip, scene, experiment, standings, reference, notes })
@@ -59,12 +59,12 @@ pub fn render(
 impl Rendered {
     /// Reference for error measurement.
     #[must_use]
-    pub fn held_against(&self) -> Reference {
-        held_against(&self.reference)
+    pub fn compared_with(&self) -> Reference {
+        compared_with(&self.reference)
     }
 }
 
-fn held_against(view: &View) -> Reference {
+fn compared_with(view: &View) -> Reference {
     let id = &view.doc.estimator.id;
     let name = crate::estimator::find(id).map_or(id.as_str(), |e| e.name);
     Reference::of(&view.snapshot, format!("{name}, {} samples per pixel", view.snapshot.spp))

@@ -151,9 +151,9 @@ mod tests {
         let m3: f64 = samples.iter().map(|s| (grey(s) - mean).powi(3)).sum();
         assert!((pixel.grey_m3 - m3).abs() < 1e-9 * m3.abs(), "{} {m3}", pixel.grey_m3);
         assert!((pixel.third_moment_of_mean() - m3 / (n * (n - 1.0) * (n - 2.0))).abs() < 1e-9);
-        let opponents =
+        let comparisons =
             [[1.0 / 2f64.sqrt(), -1.0 / 2f64.sqrt(), 0.0], [1.0, 1.0, -2.0].map(|x| x / 6f64.sqrt())];
-        let chroma: f64 = opponents
+        let chroma: f64 = comparisons
             .iter()
             .map(|axis| {
                 let along = |s: &[f32; 3]| s.iter().zip(axis).map(|(x, a)| f64::from(*x) * a).sum::<f64>();
@@ -168,7 +168,7 @@ mod tests {
 
     /// Over many pixels the estimated variance of the variance equals the variance of the estimates.
     #[test]
-    fn the_spread_of_the_variance_is_what_its_scatter_is() {
+    fn the_variance_of_the_variance_matches_its_spread() {
         use crate::math::Sampler;
         let (pixels, n) = (4000u64, 24u64);
         let all: Vec<Pixel> = (0..pixels)

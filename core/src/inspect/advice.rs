@@ -1,7 +1,7 @@
-//! Why a picture is noisy, and what might help: rules over measured shares of the variance.
+//! Suggestions against noise: rules over measured shares of the variance.
 //!
-//! The evidence is measured, the rules are experience: each advice names what it rests on, and is a document to be
-//! rendered beside the one at hand, which proves or refutes it.
+//! The shares are measured, the rules are empirical. Each suggestion states its evidence, and is a document
+//! that can be rendered next to the current one for comparison.
 
 use super::{Heaviest, Split, Strategies, StrategyPlan};
 use crate::math::SamplerKind;
@@ -10,29 +10,29 @@ use crate::scene::{Absorption, DirectionSampling, LightSampling, LightSelection,
 use crate::spectrum::WavelengthSampling;
 use crate::transport::CancelToken;
 
-/// The share of each part in the variance of one sample, largest first.
+/// Share of each layer in the variance of one sample, in decreasing order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shares {
-    /// By what the image is taken apart.
+    /// Property by which contributions are separated.
     pub split: Split,
-    /// Names and shares; they sum to one.
+    /// Names and shares of the layers; the shares sum to one.
     pub parts: Vec<(String, f64)>,
 }
 
-/// What is known about the noise of a region.
+/// Measurements of the noise in a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
     /// Shares by every split.
     pub shares: Vec<Shares>,
-    /// Share of the variance that is perpendicular to grey, if it is known.
+    /// Share of the variance that is perpendicular to grey, if known.
     pub chroma: Option<f64>,
-    /// How unevenly it is spread over the samples.
+    /// Distribution of the variance over the samples.
     pub heaviest: Heaviest,
 }
 
 impl Evidence {
-    /// Takes the samples of a plan apart in every way, and weighs them; `None` if there is no variance, or it was
-    /// called off.
+    /// Measures the samples of a plan by every split, and their weights; `None` if the variance is zero, or
+    /// after cancellation.
     #[must_use]
     pub fn measure(plan: &StrategyPlan<'_>, chroma: Option<f64>, cancel: CancelToken<'_>) -> Option<Self> {
         let mut shares = Vec::new();
@@ -45,7 +45,7 @@ impl Evidence {
         Some(Self { shares, chroma, heaviest: Heaviest::measure(plan, cancel)? })
     }
 
-    /// The share of a part, by its name; zero if there is none.
+    /// Share of a layer, by its name; zero if there is none.
     #[must_use]
     pub fn share(&self, split: Split, name: &str) -> f64 {
         let parts =
@@ -54,18 +54,18 @@ impl Evidence {
     }
 }
 
-/// A change that might help.
+/// Suggested change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Advice {
-    /// What it rests on.
+    /// Evidence.
     pub because: String,
-    /// What is changed.
+    /// Description of the change.
     pub change: &'static str,
-    /// The document after it.
+    /// Document after the change.
     pub doc: SceneDoc,
 }
 
-/// What might make a document's picture less noisy, the most likely first; empty if no rule has anything to say.
+/// Suggestions to reduce the noise of a document's image, the most likely first; empty if no rule applies.
 #[must_use]
 pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
     let mut advice = Vec::new();
@@ -83,64 +83,72 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
     let connected = evidence.share(Split::Technique, "next-event");
 
     if let Some(chroma) = evidence.chroma.filter(|chroma| *chroma > 0.3) {
-        let because = format!("{} of the variance is in colour", percent(chroma));
+        let because = format!("{} of the variance is colour noise", percent(chroma));
         if is("independent") {
-            propose(because, "Let all components share each path: spectral MIS", &|doc| {
+            propose(because, "Combine all components on each path: spectral MIS", &|doc| {
                 "spectral-mis".clone_into(&mut doc.estimator.id);
             });
         } else if estimator.mode == Mode::Spectral && estimator.wavelengths == WavelengthSampling::Uniform {
-            propose(because, "Draw wavelengths where the sensor responds", &|doc| {
+            propose(because, "Sample wavelengths by the sensor's response", &|doc| {
                 doc.estimator.wavelengths = WavelengthSampling::Sensor;
             });
         }
     }
     if estimator.absorption == Absorption::Analogue {
-        let because = "absorption ends paths as an event".to_owned();
-        propose(because, "Weigh absorption instead", &|doc| doc.estimator.absorption = Absorption::Weighted);
+        let because = "absorption is sampled as an event that ends paths".to_owned();
+        propose(because, "Multiply the weight by the albedo in place of sampling absorption", &|doc| {
+            doc.estimator.absorption = Absorption::Weighted
+        });
     }
     if walk > 0.6 && connected == 0.0 && !is("uni-nee-mis") {
-        let because = format!("{} comes from walks that meet light by chance", percent(walk));
+        let because =
+            format!("{} of the variance comes from walks that reach lights by chance", percent(walk));
         propose(because, "Connect to the lights as well: Uni+NEE MIS", &|doc| {
             "uni-nee-mis".clone_into(&mut doc.estimator.id);
         });
     }
     if connected > 0.6 && is("nee") {
-        let because = format!("{} comes from connections", percent(connected));
-        propose(because, "Let walks share them: Uni+NEE MIS", &|doc| {
+        let because = format!("{} of the variance comes from connections", percent(connected));
+        propose(because, "Combine connections with walks: Uni+NEE MIS", &|doc| {
             "uni-nee-mis".clone_into(&mut doc.estimator.id);
         });
     }
     if walk > 0.5 && connected > 0.0 && estimator.directions == DirectionSampling::Phase {
-        let because = format!("{} comes from walks that meet light, beside connections", percent(walk));
-        propose(
-            because,
-            "Draw directions from the part of the phase function that sees the lights",
-            &|doc| {
-                doc.estimator.directions = DirectionSampling::Product;
-                doc.estimator.light_sampling = LightSampling::Product;
-            },
+        let because = format!(
+            "{} of the variance comes from walks that reach lights, despite connections",
+            percent(walk)
         );
+        propose(because, "Sample directions from the product of phase function and lights", &|doc| {
+            doc.estimator.directions = DirectionSampling::Product;
+            doc.estimator.light_sampling = LightSampling::Product;
+        });
     }
     if connected > 0.5
         && estimator.directions == DirectionSampling::Phase
         && Phase::new(&doc.medium.phase).mean_cosine() > 0.7
     {
-        let because = format!("{} comes from connections of sharply forward scattering", percent(connected));
-        propose(because, "Send some of the paths towards the lights", &|doc| {
+        let because = format!(
+            "{} of the variance comes from connections with strongly forward scattering",
+            percent(connected)
+        );
+        propose(because, "Sample some directions towards the lights", &|doc| {
             doc.estimator.directions = DirectionSampling::TowardsLights;
         });
     }
     if connected > 0.5 && doc.lights.len() > 1 && estimator.lights == LightSelection::Uniform {
-        let because =
-            format!("{} comes from connections to one of {} lights", percent(connected), doc.lights.len());
-        propose(because, "Choose lights by what they contribute", &|doc| {
+        let because = format!(
+            "{} of the variance comes from connections to one of {} lights",
+            percent(connected),
+            doc.lights.len()
+        );
+        propose(because, "Select lights by their contribution", &|doc| {
             doc.estimator.lights = LightSelection::Contribution;
         });
     }
     let first: f64 = ["0", "1", "2"].iter().map(|order| evidence.share(Split::Order, order)).sum();
     if first > 0.6 && estimator.sampler == SamplerKind::Independent {
-        let because = format!("{} is decided within the first two scatterings", percent(first));
-        propose(because, "Spread the first decisions evenly", &|doc| {
+        let because = format!("{} of the variance is from the first two scattering orders", percent(first));
+        propose(because, "Use a low-discrepancy sequence for the first decisions", &|doc| {
             doc.estimator.sampler = SamplerKind::Sobol;
         });
     }
@@ -151,25 +159,29 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
         && heaviest.is_some_and(|heavy| heavy.technique == "next-event" && heavy.order == "1")
     {
         let because = format!(
-            "{} is held by one sample in a thousand, the heaviest scattered once, beside a light",
+            "{} of the variance is in one sample of a thousand; the heaviest scattered once, near a light",
             percent(tail)
         );
-        propose(because, "Draw distances towards the lights as well: equiangular MIS", &|doc| {
+        propose(because, "Add equiangular sampling of distances: equiangular MIS", &|doc| {
             "equiangular-mis".clone_into(&mut doc.estimator.id);
         });
     }
     let late = evidence.share(Split::Order, "8 and more");
     if late > 0.3 && estimator.roulette_depth.is_some_and(|depth| depth < 8) {
-        let because =
-            format!("{} comes from eight scatterings on, where roulette strikes early", percent(late));
-        propose(because, "Leave roulette to longer paths", &|doc| doc.estimator.roulette_depth = Some(32));
+        let because = format!(
+            "{} of the variance comes from eight or more scattering events, where roulette begins early",
+            percent(late)
+        );
+        propose(because, "Begin Russian roulette later", &|doc| doc.estimator.roulette_depth = Some(32));
     }
     if doc.medium.majorant.factor < 1.0 {
-        let because = "the majorant does not bound: weights beyond it grow".to_owned();
-        propose(because, "Raise the majorant to its bound", &|doc| doc.medium.majorant.factor = 1.0);
+        let because = "the extinction exceeds the majorant, and weights grow".to_owned();
+        propose(because, "Raise the majorant to the bound of the extinction", &|doc| {
+            doc.medium.majorant.factor = 1.0
+        });
     }
     if is("mitsuba2-volpath") || is("spectral-tracking") {
-        let because = "its paths have no densities that could be combined".to_owned();
+        let because = "its paths have no densities that MIS could combine".to_owned();
         propose(because, "Combine techniques and components: Uni+NEE MIS", &|doc| {
             "uni-nee-mis".clone_into(&mut doc.estimator.id);
         });

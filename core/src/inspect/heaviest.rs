@@ -1,8 +1,8 @@
-//! How unevenly the variance is spread over samples, and which of them weigh the most.
+//! Distribution of the variance over samples, and the samples with the largest weights.
 //!
-//! A sample's weight is its squared distance from the mean of its pixel, (x − x̄)², summed over channels; the weights
-//! sum to n − 1 times the variance of one sample. Where a thousandth of the samples holds most of it, the picture has
-//! fireflies, and more samples help slowly.
+//! The weight of a sample is its squared distance from the mean of its pixel, (x − x̄)², summed over
+//! channels. The weights sum to n − 1 times the variance of one sample. If a thousandth of the samples holds
+//! most of the variance, the image has fireflies, and more samples reduce the noise slowly.
 
 use super::{Split, StrategyPlan, strategies::main_layer};
 use crate::estimator::PathIndex;
@@ -10,37 +10,38 @@ use crate::transport::CancelToken;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// So many samples are named.
+/// Number of samples that are listed.
 const NAMED: usize = 8;
 
-/// One sample that weighs much.
+/// A sample with a large weight.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Heavy {
-    /// Which.
+pub struct HeavySample {
+    /// Index of the path.
     pub at: PathIndex,
-    /// Its share of the variance.
+    /// Share of the variance.
     pub share: f64,
-    /// Its grey over the mean grey of its pixel; infinite where that is black.
+    /// Sum of its channels over that of its pixel's mean; infinite if the mean is black.
     pub times_mean: f64,
-    /// The technique that has found most of its light.
+    /// Technique of its largest contribution.
     pub technique: String,
-    /// The scattering order of most of its light.
+    /// Scattering order of its largest contribution.
     pub order: String,
 }
 
-/// The weights of all samples of a region.
+/// Weights of all samples of a region.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heaviest {
-    /// Samples that were traced.
+    /// Number of traced samples.
     pub samples: usize,
-    /// Their weights' shares, the largest first; they sum to one.
+    /// Shares of the weights, in decreasing order; they sum to one.
     shares: Vec<f32>,
-    /// The heaviest, in the same order.
-    pub named: Vec<Heavy>,
+    /// The samples with the largest weights, in the same order.
+    pub named: Vec<HeavySample>,
 }
 
 impl Heaviest {
-    /// Traces the paths of a plan and weighs them; `None` if there is no variance, or it was called off.
+    /// Traces the paths of a plan and computes their weights; `None` if the variance is zero, or after
+    /// cancellation.
     #[must_use]
     pub fn measure(plan: &StrategyPlan<'_>, cancel: CancelToken<'_>) -> Option<Self> {
         let (width, height) = plan.size();
@@ -55,10 +56,11 @@ impl Heaviest {
             })
             .collect();
         let mut all: Vec<Weighed> = rows?.into_iter().flatten().collect();
-        // The sums are formed in the order of the pixels, and equal weights stay in it: as ever on any threads.
+        // Sums are computed in the order of pixels, and the sort is stable, so the result does not depend on
+        // threads.
         let total: f64 = all.iter().map(|w| f64::from(w.weight)).sum();
         all.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-        let named = all.iter().take(NAMED).filter(|w| w.weight > 0.0).map(|w| Heavy {
+        let named = all.iter().take(NAMED).filter(|w| w.weight > 0.0).map(|w| HeavySample {
             at: w.at,
             share: f64::from(w.weight) / total,
             times_mean: w.times_mean,
@@ -70,8 +72,7 @@ impl Heaviest {
         (total > 0.0).then_some(Self { samples: all.len(), shares, named })
     }
 
-    /// The share of the variance that the heaviest of the samples hold together, of which there are `fraction` of all,
-    /// at least one.
+    /// Share of the variance held by the heaviest `fraction` of the samples, at least one sample.
     #[must_use]
     pub fn held_by(&self, fraction: f64) -> f64 {
         let count = (fraction * self.samples as f64).round().max(1.0) as usize;
@@ -81,16 +82,16 @@ impl Heaviest {
 
 #[cfg(test)]
 impl Heaviest {
-    /// Samples that all weigh the same.
+    /// Samples of equal weight.
     pub(super) fn even(samples: usize) -> Self {
         Self { samples, shares: vec![1.0 / samples as f32; samples], named: Vec::new() }
     }
 
-    /// One that holds everything.
+    /// One sample that has all the weight.
     pub(super) fn one(samples: usize, technique: &str, order: &str) -> Self {
         let at = PathIndex { x: 0, y: 0, sample: 0 };
         let [technique, order] = [technique, order].map(str::to_owned);
-        let named = vec![Heavy { at, share: 1.0, times_mean: f64::INFINITY, technique, order }];
+        let named = vec![HeavySample { at, share: 1.0, times_mean: f64::INFINITY, technique, order }];
         Self { samples, shares: vec![1.0], named }
     }
 }
@@ -101,7 +102,7 @@ struct Weighed {
     times_mean: f64,
 }
 
-/// The samples of one pixel.
+/// Computes the weights of the samples of one pixel.
 fn weigh(
     plan: &StrategyPlan<'_>,
     [x, y]: [u32; 2],
@@ -156,7 +157,7 @@ mod tests {
         let first = &walks.named[0];
         assert_eq!((walks.named.len(), first.technique.as_str()), (NAMED, "unidirectional"));
         assert!(first.times_mean > 8.0 && first.share >= walks.named[1].share);
-        // The weights of a pixel sum to what the parts of its image have as variance.
+        // The weights of a pixel sum to the total variance of its layers.
         let kernel = find("uni-nee-mis").unwrap().kernel;
         let pixel = StrategyPlan {
             window: [24, 18, 25, 19],

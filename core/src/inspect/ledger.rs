@@ -1,13 +1,14 @@
-//! A path's books: f, p_uni and p_nee event by event, as they are defined.
+//! Path weights of a recorded path: f, p_uni and p_nee after every event, from their definition.
 //!
-//! They are products over the events of the path (Miller, Georgiev and Jarosz 2019, section 4), kept here apart from the
-//! estimator, in logarithms of double precision, so that what its weights say can be held against their definition:
+//! They are products over the events of the path (Miller, Georgiev and Jarosz 2019, section 4). They are
+//! computed independently of the estimator, as logarithms in double precision, so that the estimator's
+//! weights can be compared with their definition:
 //!
 //! ```text
-//!   with the balance heuristics, light adds   Le_j f_j / mean_i (p_uni,i + p_nee,i)
+//!   with the balance heuristics, a contribution is   Le_j f_j / mean_i (p_uni,i + p_nee,i)
 //! ```
 //!
-//! Beside them stand the numbers that the estimator keeps itself, rescaled or not, as they are after the same event.
+//! Each row also has the numbers that the estimator itself stores, rescaled or not, after the same event.
 
 use super::Recording;
 use super::path_densities::PathDensities;
@@ -18,93 +19,96 @@ use crate::spectrum::{Carried, Lanes};
 use crate::transport::{CollisionRecord, Event, Note, Technique, WeightRecord};
 use glam::Vec3;
 
-/// Light that is added to the estimate.
+/// Contribution to the estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Credit {
-    /// What has found it.
+pub struct Contribution {
+    /// Technique that sampled it.
     pub technique: Technique,
-    /// Real vertices on the path: 0 for light that the camera sees.
+    /// Number of real vertices on the path: 0 for light seen directly by the camera.
     pub order: u32,
-    /// Null collisions on the path.
+    /// Number of null collisions on the path.
     pub nulls: u32,
     /// Emitted radiance.
     pub emitted: Lanes,
-    /// What the estimator adds, component by component.
+    /// Contribution computed by the estimator, per component.
     pub value: Lanes,
-    /// The same as linear sRGB on the film.
+    /// Contribution as linear sRGB on the film.
     pub film: Vec3,
-    /// What it should add by the definition of the balance heuristic; `None` for an estimator whose path has no density.
+    /// Contribution by the definition of the balance heuristic; `None` if the path has no density under the
+    /// estimator.
     pub by_definition: Option<Lanes>,
 }
 
-/// An event of a path, and its books after it.
+/// Event of a path, with its path weights after the event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Index of the recording's note.
+    /// Index of the note in the recording.
     pub note: usize,
-    /// Which part of the path.
+    /// Part of the path.
     pub branch: Branch,
-    /// What has happened.
+    /// Kind of event.
     pub step: Step,
-    /// Where, if it is anywhere.
+    /// Position, if the event has one.
     pub point: Option<Vec3>,
-    /// The random numbers that have decided it.
+    /// Random numbers that determined the event.
     pub numbers: Vec<f32>,
-    /// The medium there.
+    /// Coefficients of the medium at the event.
     pub found: Option<CollisionRecord>,
-    /// What the path contributes.
+    /// Contribution f, per component.
     pub f: [Product; 4],
-    /// How likely unidirectional sampling makes it.
+    /// Density of the path under unidirectional sampling.
     pub uni: [Product; 4],
-    /// How likely next-event estimation makes it, but for the density of the light. It means something in a connection and from
-    /// the turn at a vertex on: at a vertex that was only reached it is still that of the way there.
+    /// Density of the path under next-event estimation, without the density of the light. Valid within
+    /// connections, and from the new direction at a vertex on; at a vertex just reached it is still the
+    /// density of the segment that leads there.
     pub nee: [Product; 4],
-    /// The numbers that the estimator keeps of this branch, after the event; `None` where it keeps none, as of a
-    /// connection whose weight has no density.
+    /// Path weights stored by the estimator for this branch, after the event; `None` where it stores none, as
+    /// for a connection whose transmittance has no density.
     pub kept: Option<WeightRecord>,
-    /// Light that is added.
-    pub credit: Option<Credit>,
+    /// Contribution added by the event.
+    pub contribution: Option<Contribution>,
 }
 
-/// A path's events with their books.
+/// Events of a path with their path weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ledger {
-    /// What the components are.
+    /// Components of the path.
     pub carried: Carried,
     /// The events, in order.
     pub rows: Vec<Row>,
-    /// The sum of all that was added.
+    /// Sum of all contributions, per component.
     pub sum: Lanes,
-    /// Linear sRGB, as the film has received it.
+    /// Estimate as linear sRGB, as added to the film.
     pub film: Vec3,
 }
 
-/// The books of all branches of a path while its notes are read.
-struct Bookkeeper {
+/// Path weights of all branches of a path while its notes are read.
+struct LedgerBuilder {
     path: PathDensities,
     link: Option<PathDensities>,
     walk: Option<PathDensities>,
-    by_angle: Option<PathDensities>,
-    /// As they were where the path's ray begins.
+    equiangular: Option<PathDensities>,
+    /// Path weights at the start of the current ray.
     ray: PathDensities,
     carried: Carried,
-    /// Whether light is shared by the balance heuristics, whose result can be written down.
+    /// Whether both heuristics are the balance heuristic, for which contributions can be computed by
+    /// definition.
     balanced: bool,
     found: Option<CollisionRecord>,
-    /// The first row of the path's last ray.
+    /// First row of the current ray.
     ray_row: usize,
     rows: Vec<Row>,
 }
 
 impl Ledger {
-    /// The books of a recorded path.
+    /// Computes the path weights of a recorded path.
     #[must_use]
     pub fn new(recording: &Recording) -> Self {
-        let mut bookkeeper = Bookkeeper {
+        let mut builder = LedgerBuilder {
             path: PathDensities::CAMERA,
             link: None,
             walk: None,
-            by_angle: None,
+            equiangular: None,
             ray: PathDensities::CAMERA,
             carried: Carried::Grey,
             balanced: recording.settings.path.heuristics == Heuristics::default(),
@@ -117,37 +121,37 @@ impl Ledger {
             if let Note::End { sum: all, film: rgb } = note {
                 (sum, film) = (*all, *rgb);
             }
-            bookkeeper.read(i, note);
+            builder.read(i, note);
         }
-        Self { carried: bookkeeper.carried, rows: bookkeeper.rows, sum, film }
+        Self { carried: builder.carried, rows: builder.rows, sum, film }
     }
 
-    /// Light that is added, in order.
-    pub fn credits(&self) -> impl Iterator<Item = &Credit> {
-        self.rows.iter().filter_map(|row| row.credit.as_ref())
+    /// Contributions, in order.
+    pub fn contributions(&self) -> impl Iterator<Item = &Contribution> {
+        self.rows.iter().filter_map(|row| row.contribution.as_ref())
     }
 
-    /// The sum of what is added, formed as the estimator forms it.
+    /// Sum of the contributions, in the estimator's order of summation.
     #[must_use]
     pub fn added(&self) -> Lanes {
-        let add = |sum: Lanes, entry: &Credit| std::array::from_fn(|i| sum[i] + entry.value[i]);
-        self.credits().fold([0.0; 4], add)
+        let add = |sum: Lanes, entry: &Contribution| std::array::from_fn(|i| sum[i] + entry.value[i]);
+        self.contributions().fold([0.0; 4], add)
     }
 }
 
-impl Bookkeeper {
+impl LedgerBuilder {
     fn branch(&self) -> Branch {
-        match (&self.link, &self.walk, &self.by_angle) {
-            (_, _, Some(_)) => Branch::Angle,
+        match (&self.link, &self.walk, &self.equiangular) {
+            (_, _, Some(_)) => Branch::Equiangular,
             (Some(_), _, _) => Branch::Connection,
             (_, Some(_), _) => Branch::LightWalk,
             _ => Branch::Path,
         }
     }
 
-    /// The books of the branch at hand.
+    /// Path weights of the current branch.
     fn now(&mut self) -> &mut PathDensities {
-        self.link.as_mut().or(self.walk.as_mut()).or(self.by_angle.as_mut()).unwrap_or(&mut self.path)
+        self.link.as_mut().or(self.walk.as_mut()).or(self.equiangular.as_mut()).unwrap_or(&mut self.path)
     }
 
     fn row(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
@@ -163,13 +167,13 @@ impl Bookkeeper {
             uni: densities.uni,
             nee: densities.nee,
             kept: densities.kept,
-            credit: None,
+            contribution: None,
         });
         let last = self.rows.len() - 1;
         &mut self.rows[last]
     }
 
-    /// The row of an event after which the estimator keeps other numbers, which it has still to tell.
+    /// Adds the row of an event whose path weights the estimator has yet to report.
     fn event(&mut self, note: usize, step: Step, point: Option<Vec3>, numbers: &[f32]) -> &mut Row {
         let next = self.rows.len();
         let densities = self.now();
@@ -177,7 +181,7 @@ impl Bookkeeper {
         self.row(note, step, point, numbers)
     }
 
-    /// What the estimator keeps of the branch at hand, after the last event of it.
+    /// Stores the path weights that the estimator reports for the current branch after its last event.
     fn keeps(&mut self, kept: WeightRecord) {
         let densities = self.now();
         densities.kept = Some(kept);
@@ -190,7 +194,7 @@ impl Bookkeeper {
         }
     }
 
-    /// The path goes on along a new ray.
+    /// Starts a new ray of the path.
     fn begin_ray(&mut self) {
         (self.ray, self.ray_row) = (self.path, self.rows.len());
     }
@@ -203,7 +207,7 @@ impl Bookkeeper {
                 self.begin_ray();
             }
             Note::Collision(found, kept) => self.collide(i, found, kept),
-            Note::Exit { passed, kept } => {
+            Note::Exit { passed, weight_record: kept } => {
                 self.now().pass(&passed);
                 self.keeps(kept);
                 self.row(i, Step::Exit, None, &[]);
@@ -212,7 +216,8 @@ impl Bookkeeper {
             Note::Drawn { event, u } => self.drawn(i, event, u),
             Note::DrawnForAll { event, u, density } => self.drawn_for_all(i, event, u, density),
             Note::Flight { scattered_at, weight } => {
-                // Its collisions are behind that weight: on the way the path's own has not changed.
+                // The weight includes all collisions of the flight; the path's own weight has not changed on
+                // the way.
                 for row in self.rows.iter_mut().skip(self.ray_row).filter(|row| row.branch == Branch::Path) {
                     row.kept = self.ray.kept;
                 }
@@ -233,19 +238,19 @@ impl Bookkeeper {
                 if u < q {
                     times(&mut self.path.f, &[1.0 / q; 4]);
                     self.event(i, Step::Survive(q), None, &[u]);
-                    // Where roulette comes after the turn, the ray has its factor too.
+                    // If roulette comes after the new direction, its factor belongs to the ray, too.
                     self.begin_ray();
                 } else {
-                    self.row(i, Step::Die(q), None, &[u]);
+                    self.row(i, Step::Terminate(q), None, &[u]);
                 }
             }
-            Note::Leave { ray, u, value, density } => {
-                self.path.leave(value, density);
-                self.event(i, Step::Leave(value, density), Some(ray.origin), &u.to_array());
+            Note::Direction { ray, u, value, density } => {
+                self.path.choose_direction(value, density);
+                self.event(i, Step::Direction(value, density), Some(ray.origin), &u.to_array());
                 self.begin_ray();
             }
             Note::Connect { ray, value, walk_density, light_density, .. } => {
-                let from = self.by_angle.unwrap_or(self.path);
+                let from = self.equiangular.unwrap_or(self.path);
                 self.link = Some(from.connected(value, walk_density, light_density));
                 let step = Step::Connect(value, walk_density, light_density);
                 self.event(i, step, Some(ray.origin), &[]);
@@ -258,7 +263,7 @@ impl Bookkeeper {
             }
             Note::Connected { arrives } => {
                 if !arrives {
-                    self.row(i, Step::Dark, None, &[]);
+                    self.row(i, Step::NoContribution, None, &[]);
                     self.link = None;
                 }
             }
@@ -267,11 +272,11 @@ impl Bookkeeper {
             Note::EquiangularVertex => {
                 // From here on there is a third density.
                 self.path.defined = false;
-                self.by_angle = Some(self.path);
+                self.equiangular = Some(self.path);
             }
-            Note::EquiangularVertexEnds => (self.by_angle, self.link) = (None, None),
-            Note::Credit { technique, emitted, other_density, value, film } => {
-                self.credit(i, (technique, other_density), emitted, value, film);
+            Note::EquiangularVertexEnds => (self.equiangular, self.link) = (None, None),
+            Note::Contribution { technique, emitted, other_density, value, film } => {
+                self.contribution(i, (technique, other_density), emitted, value, film);
             }
             Note::End { .. } => {}
         }
@@ -280,8 +285,8 @@ impl Bookkeeper {
     fn collide(&mut self, i: usize, found: CollisionRecord, kept: WeightRecord) {
         self.now().pass(&found.passed);
         self.keeps(kept);
-        // Connections take every collision as null; walks draw.
-        if matches!(self.branch(), Branch::Connection | Branch::Angle) {
+        // Connections treat every collision as null; walks sample the type.
+        if matches!(self.branch(), Branch::Connection | Branch::Equiangular) {
             self.now().null(&found);
             self.event(i, Step::Null, Some(found.point), &[]).found = Some(found);
         } else {
@@ -290,7 +295,7 @@ impl Bookkeeper {
         }
     }
 
-    /// The outcome joins the row of its collision.
+    /// Merges the sampled event into the row of its collision.
     fn drawn(&mut self, i: usize, event: Event, u: f32) {
         let Some(found) = self.found.take() else { return };
         match event {
@@ -301,7 +306,7 @@ impl Bookkeeper {
         self.outcome(i, event, u, found);
     }
 
-    /// As [`Self::drawn`], with one density for all components: p_uni and p_nee have that, whichever is the hero.
+    /// As [`Self::drawn`], with one density for all components, which p_uni and p_nee share for any hero.
     fn drawn_for_all(&mut self, i: usize, event: Event, u: f32, density: f32) {
         let Some(found) = self.found.take() else { return };
         let densities = self.now();
@@ -325,20 +330,20 @@ impl Bookkeeper {
             Event::Scattering => Step::Scatter,
             Event::Absorption => Step::Absorb,
         };
-        // A collision where the medium glows has its light between; else the outcome takes its row.
+        // The event replaces the row of its collision, unless a contribution of emission lies between them.
         if self.rows.last().is_some_and(|row| row.step == Step::Collision) {
             self.rows.pop();
         }
         let numbers = [u];
         let row = match event {
-            // The path ends with what it had.
+            // Absorption ends the path and leaves the weights unchanged.
             Event::Absorption => self.row(note, step, Some(found.point), &numbers),
             Event::Null | Event::Scattering => self.event(note, step, Some(found.point), &numbers),
         };
         row.found = Some(found);
     }
 
-    fn credit(
+    fn contribution(
         &mut self,
         i: usize,
         (technique, other_density): (Technique, f32),
@@ -368,9 +373,16 @@ impl Bookkeeper {
             Technique::Equiangular => None,
         };
         let vertices = path.order + u32::from(technique == Technique::Equiangular);
-        let entry =
-            Credit { technique, order: vertices, nulls: path.nulls, emitted, value, film, by_definition };
-        self.row(i, Step::Credit, None, &[]).credit = Some(entry);
+        let entry = Contribution {
+            technique,
+            order: vertices,
+            nulls: path.nulls,
+            emitted,
+            value,
+            film,
+            by_definition,
+        };
+        self.row(i, Step::Contribution, None, &[]).contribution = Some(entry);
         if matches!(technique, Technique::Connection | Technique::Equiangular) {
             self.link = None;
         }

@@ -1,7 +1,8 @@
-//! Paths taken apart: one replayed step by step with its books, many sorted by how they came about.
+//! Inspection of paths: a single path replayed step by step with its weights, and images separated into
+//! contributions.
 //!
-//! Nothing here traces paths of its own: the estimator's kernel does, with the same random numbers as for the film, and
-//! tells its steps to an [`Observer`](crate::transport::Observer).
+//! No code here traces paths itself: the estimator's kernel does, with the same random numbers as for the
+//! film, and reports its steps to an [`Observer`](crate::transport::Observer).
 
 mod advice;
 mod heaviest;
@@ -14,8 +15,8 @@ mod step;
 mod strategies;
 
 pub use advice::{Advice, Evidence, Shares, advise};
-pub use heaviest::{Heaviest, Heavy};
-pub use ledger::{Credit, Ledger, Row};
+pub use heaviest::{Heaviest, HeavySample};
+pub use ledger::{Contribution, Ledger, Row};
 pub use product::Product;
 pub use ray_bench::{Along, BenchPlan, Look, RayBench};
 pub use recording::Recording;

@@ -1,23 +1,23 @@
-//! f, p_uni and p_nee of a path, as they are defined.
+//! Contribution f and densities p_uni and p_nee of a path, from their definition.
 
 use super::product::{Product, Products, times};
 use crate::spectrum::Lanes;
 use crate::transport::{CollisionRecord, WeightRecord};
 
-/// What a path contributes and how likely each technique makes it, as products over its events so far.
+/// Contribution of a path and its densities under each technique, as products over the events so far.
 #[derive(Clone, Copy)]
 pub(super) struct PathDensities {
     pub f: Products,
     pub uni: Products,
     pub nee: Products,
-    /// Real vertices and null collisions so far.
+    /// Numbers of real vertices and of null collisions so far.
     pub order: u32,
     pub nulls: u32,
-    /// Whether all of it has densities.
+    /// Whether all factors so far have a density.
     pub defined: bool,
-    /// What the estimator keeps itself; `None` where it keeps nothing, or has not told yet.
+    /// Path weights of the estimator; `None` where it has none, or has not reported them yet.
     pub kept: Option<WeightRecord>,
-    /// The row of the event after which it has still to tell.
+    /// Row of the event whose path weights have yet to be reported.
     pub awaiting: Option<usize>,
 }
 
@@ -53,7 +53,7 @@ impl PathDensities {
         times(&mut self.uni, &c.scattering_density);
     }
 
-    pub fn leave(&mut self, value: f32, density: f32) {
+    pub fn choose_direction(&mut self, value: f32, density: f32) {
         self.nee = self.uni;
         times(&mut self.f, &[value; 4]);
         times(&mut self.uni, &[density; 4]);
@@ -68,7 +68,7 @@ impl PathDensities {
         link
     }
 
-    /// Le_j f_j over the mean of the densities, over components and techniques.
+    /// Le_j f_j over the mean of the densities, where the mean is over components and sums over techniques.
     pub fn value(&self, emitted: &Lanes, densities: &[&Products], count: usize, grey: bool) -> Option<Lanes> {
         if !self.defined {
             return None;
@@ -77,7 +77,7 @@ impl PathDensities {
         let largest = all().fold(f64::NEG_INFINITY, f64::max);
         let mean = all().map(|ln| (ln - largest).exp()).sum::<f64>() / count as f64;
         let ln = largest + mean.ln();
-        // Of grey paths one weight counts for all channels of the film.
+        // On grey paths one weight applies to all channels of the film.
         let weight =
             |i: usize| if i < count || grey { self.f[if grey { 0 } else { i }].over(ln) } else { 0.0 };
         Some(std::array::from_fn(|i| (f64::from(emitted[i]) * weight(i)) as f32))

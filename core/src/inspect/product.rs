@@ -1,9 +1,9 @@
-//! Products of hundreds of factors.
+//! Products of hundreds of factors, without overflow.
 
 use crate::spectrum::Lanes;
 use std::fmt;
 
-/// A product that neither overflows nor underflows: its sign and the logarithm of its size.
+/// A product that neither overflows nor underflows, stored as its sign and the logarithm of its magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Product {
     negative: bool,
@@ -14,25 +14,25 @@ impl Product {
     /// The empty product.
     pub const ONE: Self = Self { negative: false, ln: 0.0 };
 
-    /// With one more factor.
+    /// Multiplies by a factor.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self { negative: self.negative != (factor < 0.0), ln: self.ln + factor.abs().ln() }
     }
 
-    /// With e^(−τ) as one more factor.
+    /// Multiplies by e^(−τ).
     #[must_use]
     pub fn attenuated(self, optical_depth: f64) -> Self {
         Self { ln: self.ln - optical_depth, ..self }
     }
 
-    /// Natural logarithm of its size; −∞ for zero.
+    /// Natural logarithm of the magnitude; −∞ for zero.
     #[must_use]
     pub fn ln(self) -> f64 {
         self.ln
     }
 
-    /// The quotient by another of size e^`ln`.
+    /// Divides by e^`ln`.
     #[must_use]
     pub fn over(self, ln: f64) -> f64 {
         let size = (self.ln - ln).exp();
@@ -40,14 +40,14 @@ impl Product {
     }
 }
 
-/// As people write numbers of any size: `-1.25e-312`.
+/// Formats a number of any magnitude, e.g. `-1.25e-312`.
 impl fmt::Display for Product {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if self.ln == f64::NEG_INFINITY {
             return f.write_str("0");
         }
         let log10 = self.ln / std::f64::consts::LN_10;
-        // What would be written as 10.00 belongs to the next power.
+        // Values that round to 10.00 belong to the next power.
         let exponent = (log10 + 0.002).floor();
         let digits = 10f64.powf(log10 - exponent).max(1.0);
         let sign = if self.negative { "-" } else { "" };
@@ -63,7 +63,7 @@ impl fmt::Display for Product {
 /// One product per component.
 pub(super) type Products = [Product; 4];
 
-/// `products` times `factors`, component by component.
+/// Multiplies `products` by `factors`, component by component.
 pub(super) fn times(products: &mut Products, factors: &Lanes) {
     for (product, factor) in products.iter_mut().zip(factors) {
         *product = product.times(f64::from(*factor));

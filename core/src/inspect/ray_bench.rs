@@ -1,8 +1,8 @@
-//! One ray under the estimators of transmittance: what they know, where they look, what they estimate.
+//! Transmittance estimators along a single ray: known quantities, look-ups and estimates.
 //!
-//! The running estimate at a distance t is the estimate of the same ray cut off at t, made with the same random numbers.
-//! For those that fly from collision to collision that is the product so far; for the others it is what they would have
-//! said of the shorter ray.
+//! The running estimate at a distance t is the estimate of the ray clipped at t, with the same random
+//! numbers. For estimators that step from collision to collision it is the product so far; for the others it
+//! is the estimate of the shorter ray.
 
 use crate::math::{BoxRay, Ray, Sampler};
 use crate::medium::{AnyMedium, Medium};
@@ -12,88 +12,88 @@ use crate::transmittance::{Analytic, InMedium, Piece, Profile, Shape, Transmitta
 use crate::transport::CancelToken;
 use std::cell::RefCell;
 
-/// What a ray leads through.
+/// Extinction profile along the ray.
 #[derive(Clone, Copy, Debug)]
 pub enum Along<'a> {
-    /// A scene's medium, at one wavelength (nm) or one channel of the film.
+    /// Medium of a scene, at one wavelength (nm) or one channel of the film.
     Medium {
         /// The frozen scene.
         scene: &'a Scene,
-        /// In world space.
+        /// Ray in world space.
         ray: Ray,
-        /// Whether the component is a wavelength or a channel.
+        /// Spectral or RGB mode, in which the component is a wavelength or a channel.
         mode: Mode,
-        /// Nanometres, or 0, 1, 2.
+        /// Wavelength in nanometres, or channel 0, 1, 2.
         component: f32,
     },
-    /// A shape with a transmittance in closed form.
+    /// Analytic profile with a transmittance in closed form.
     Shape {
-        /// The shape.
+        /// Profile.
         shape: Shape,
-        /// Its largest optical depth per unit, the ray being one unit long.
+        /// Maximum extinction, for a ray of length one.
         extinction: f32,
-        /// Cells with a majorant of their own.
+        /// Number of cells with separate majorants.
         cells: u32,
-        /// Majorant over the least upper bound.
+        /// Factor on the least upper bound of each cell.
         majorant_factor: f32,
     },
 }
 
-/// What is asked of it.
+/// Parameters of the experiment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BenchPlan {
-    /// The estimator.
+    /// Transmittance estimator.
     pub kind: TransmittanceKind,
-    /// How many estimates.
+    /// Number of estimates.
     pub estimates: u64,
-    /// Selects the random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
-    /// Which of the estimates is shown step by step.
+    /// Index of the estimate that is shown step by step.
     pub example: u64,
 }
 
-/// A look at the extinction.
+/// Evaluation of the extinction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// Distance along the ray, from where the medium begins.
+    /// Distance along the ray, from the entry into the medium.
     pub t: f32,
-    /// The extinction found.
+    /// Extinction.
     pub extinction: f32,
 }
 
-/// A ray on the bench.
+/// Estimates of the transmittance along a ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RayBench {
-    /// From the ray's origin to where the medium begins.
+    /// Distance from the ray's origin to the entry into the medium.
     pub start: f32,
-    /// From there to where it ends.
+    /// Length of the ray inside the medium.
     pub length: f32,
-    /// Extinction at even steps: (t, μ).
+    /// Extinction at equal steps: (t, μ).
     pub extinction: Vec<[f32; 2]>,
-    /// Majorants: from, to, μ̄.
+    /// Majorants: start, end, μ̄.
     pub majorants: Vec<[f32; 3]>,
-    /// Transmittance from the start: (t, T), by quadrature or in closed form.
+    /// Transmittance from the entry: (t, T), by quadrature or in closed form.
     pub transmittance: Vec<[f32; 2]>,
-    /// Where the example has looked, in its own order.
+    /// Evaluations by the example, in its own order.
     pub looks: Vec<Look>,
-    /// The example's running estimate: (t, T).
+    /// Running estimate of the example: (t, T).
     pub running: Vec<[f32; 2]>,
     /// All estimates.
     pub estimates: Vec<f32>,
-    /// Their mean, and its standard error.
+    /// Mean of the estimates, and its standard error.
     pub mean: [f64; 2],
-    /// Look-ups per estimate.
+    /// Mean number of look-ups per estimate.
     pub lookups: f64,
 }
 
-/// Steps of curves.
+/// Number of steps of the curves.
 const STEPS: u32 = 512;
-/// Steps of quadrature per step of a curve.
+/// Number of quadrature steps per step of a curve.
 const FINE: u32 = 8;
-/// Cuts of the running estimate.
+/// Number of points of the running estimate.
 const CUTS: u32 = 192;
 
-/// Of a profile, what is seen of it up to `end`, with a list of the looks.
+/// A profile clipped at `end` that records its evaluations.
 struct Watched<'p, P> {
     profile: &'p P,
     end: f32,
@@ -117,7 +117,7 @@ impl<P: Profile<1>> Profile<1> for Watched<'_, P> {
     }
 }
 
-/// Pieces up to an end.
+/// Iterator over pieces, clipped at `end`.
 struct Cut<I> {
     pieces: I,
     end: f32,
@@ -137,7 +137,7 @@ impl<I: Iterator<Item = Piece<1>>> Iterator for Cut<I> {
 }
 
 impl RayBench {
-    /// Puts a ray on the bench; `None` if it misses the medium, or was called off.
+    /// Evaluates an estimator along a ray; `None` if the ray misses the medium, or after cancellation.
     #[must_use]
     pub fn new(along: &Along<'_>, plan: &BenchPlan, cancel: CancelToken<'_>) -> Option<Self> {
         match *along {
@@ -252,7 +252,7 @@ impl RayBench {
         })
     }
 
-    /// The transmittance of the whole ray.
+    /// Transmittance of the whole ray.
     #[must_use]
     pub fn truth(&self) -> f64 {
         self.transmittance.last().map_or(1.0, |[_, value]| f64::from(*value))
@@ -290,7 +290,7 @@ mod tests {
                 let [mean, error] = bench.mean;
                 let off = (mean - bench.truth()).abs();
                 assert!(off < 4.5 * error + 2e-4, "{along:?} {}: {mean} {}", kind.entry().id, bench.truth());
-                // What is shown step by step is one of them, and ends where that does.
+                // The running estimate belongs to one of the estimates, and ends at its value.
                 let (last, whole) = (bench.running.last().unwrap()[1], bench.estimates[3]);
                 assert!(
                     (last - whole).abs() < 1e-4 * (1.0 + whole.abs()),
@@ -312,7 +312,7 @@ mod tests {
             expected *= 1.0 - look.extinction / 9.0;
             let after = bench.running.iter().find(|[t, _]| *t > look.t).unwrap()[1];
             let next = bench.looks.iter().find(|other| other.t > look.t).map_or(1.0, |other| other.t);
-            // Unless the next look is too close to see a step between.
+            // Unless the next evaluation is too close to resolve the step between them.
             if next - look.t > 2.0 / CUTS as f32 {
                 assert!((after - expected).abs() < 1e-5, "{after} {expected}");
             }

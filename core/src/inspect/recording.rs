@@ -1,22 +1,22 @@
-//! One path, replayed while somebody takes notes.
+//! Recording of one path, replayed with an observer.
 
 use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
 use crate::transport::{CancelToken, Note, Observer, PathContext};
 
-/// Every step of one path.
+/// All steps of one path.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// Which path.
+    /// Index of the path.
     pub at: PathIndex,
-    /// What it was traced with.
+    /// Settings with which it was traced.
     pub settings: Settings,
-    /// Its steps, from the camera to its end; of a path that never seems to end the first [`Self::MOST_NOTES`], and its
+    /// Steps from the camera to the end. For very long paths the first [`Self::MOST_NOTES`] steps, and the
     /// end.
     pub notes: Vec<Note>,
-    /// Whether these are all.
+    /// Whether all steps are included.
     pub complete: bool,
-    /// Its estimate, as the film has received it.
+    /// Estimate of the path, as added to the film.
     pub estimate: PathEstimate,
 }
 
@@ -38,10 +38,10 @@ impl Observer for Notes {
 }
 
 impl Recording {
-    /// The most steps that are kept.
+    /// Maximum number of recorded steps.
     pub const MOST_NOTES: usize = 50_000;
 
-    /// Replays a path with the random numbers that it has; meaningless if it is not wanted any more.
+    /// Replays a path with its own random numbers. The result is meaningless after cancellation.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -63,7 +63,7 @@ mod tests {
     use crate::io::{Library, scene_file};
     use crate::scene::build;
 
-    /// Hundreds of mean free paths of albedo 1 to every side, the camera in the middle.
+    /// Hundreds of mean free paths of albedo 1 in every direction, with the camera in the middle.
     #[test]
     fn a_path_that_hardly_ends_is_cut_off_and_keeps_its_estimate() {
         let doc = scene_file::parse(

@@ -1,62 +1,62 @@
-//! The events of a path, by name.
+//! Names of the events of a path.
 
 use std::fmt;
 
-/// Which part of a path an event belongs to.
+/// Part of a path that an event belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Branch {
-    /// The walk from the camera.
+    /// Walk from the camera.
     Path,
-    /// A connection to a light.
+    /// Connection to a light.
     Connection,
-    /// A walk of its own that only meets light.
+    /// Separate walk that samples the unidirectional contribution.
     LightWalk,
-    /// A vertex drawn by angle, and its connection.
-    Angle,
+    /// Equiangularly sampled vertex and its connection.
+    Equiangular,
 }
 
-/// What has happened.
+/// Event of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     /// The path leaves the camera.
     Camera,
-    /// A tentative collision whose outcome is not drawn yet.
+    /// A tentative collision whose type has not been sampled yet.
     Collision,
     /// A null collision.
     Null,
     /// Scattering.
     Scatter,
-    /// Absorption: the path ends.
+    /// Absorption, which ends the path.
     Absorb,
-    /// A reflection by a surface.
+    /// Reflection by a surface.
     Reflect,
-    /// The medium is left.
+    /// The path leaves the medium.
     Exit,
-    /// Roulette is survived with this probability.
+    /// Survival of Russian roulette, with the survival probability.
     Survive(f32),
-    /// Roulette ends the path, which would have survived with this probability.
-    Die(f32),
-    /// The path leaves its vertex: phase function and density of the direction.
-    Leave(f32, f32),
-    /// A connection sets out: phase function, density of the walk's direction, density of the light's.
+    /// Termination by Russian roulette, with the survival probability.
+    Terminate(f32),
+    /// A new direction at a vertex: value and density of the phase function.
+    Direction(f32, f32),
+    /// Start of a connection: phase function, density of the direction under the walk, and under the light.
     Connect(f32, f32, f32),
-    /// A connection's transmittance is estimated without a density.
+    /// A transmittance estimate of a connection, without a density.
     Transmittance,
-    /// Nothing has arrived.
-    Dark,
-    /// Light is added.
-    Credit,
+    /// A connection without a contribution.
+    NoContribution,
+    /// A contribution is added to the estimate.
+    Contribution,
 }
 
 impl Branch {
-    /// Name for people.
+    /// Display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Path => "path",
             Self::Connection => "connection",
             Self::LightWalk => "light walk",
-            Self::Angle => "by angle",
+            Self::Equiangular => "equiangular",
         }
     }
 }
@@ -72,12 +72,12 @@ impl fmt::Display for Step {
             Self::Reflect => f.write_str("is reflected"),
             Self::Exit => f.write_str("leaves the medium"),
             Self::Survive(q) => write!(f, "survives roulette, {q:.2}"),
-            Self::Die(q) => write!(f, "ends by roulette, {q:.2}"),
-            Self::Leave(..) => f.write_str("turns"),
+            Self::Terminate(q) => write!(f, "ends by roulette, {q:.2}"),
+            Self::Direction(..) => f.write_str("turns"),
             Self::Connect(..) => f.write_str("connects to a light"),
             Self::Transmittance => f.write_str("transmittance"),
-            Self::Dark => f.write_str("nothing arrives"),
-            Self::Credit => f.write_str("light is added"),
+            Self::NoContribution => f.write_str("nothing arrives"),
+            Self::Contribution => f.write_str("light is added"),
         }
     }
 }

@@ -1,8 +1,9 @@
-//! An image taken apart: what each technique, scattering order, number of null collisions or hero has added to it.
+//! Contributions to an image by technique, scattering order, number of null collisions or hero.
 //!
-//! The same paths as the film's are traced, each in the scene that it had, and what each adds is sorted. Samples that are
-//! not finite are left out, as the film does. The layers therefore sum to the image, but for rounding. With X_k what layer k has of a sample, the share of the variance that is due to it is
-//! Cov(X_k, X) / Var(X), and the shares sum to one.
+//! The paths of the film are traced again, each in the scene that it was traced in, and their contributions
+//! are sorted into layers. Non-finite samples are rejected, as on the film, so the layers sum to the image up
+//! to rounding. With X_k the contribution of layer k to a sample X, the share of the variance due to the
+//! layer is Cov(X_k, X) / Var(X); the shares sum to one.
 
 use crate::estimator::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::scene::Scene;
@@ -13,31 +14,31 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// By what an image is taken apart.
+/// Property by which contributions are separated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Split {
-    /// What has found the light.
+    /// Sampling technique.
     #[default]
     Technique,
-    /// Scattering and reflection: how often.
+    /// Number of scattering events and reflections.
     Order,
-    /// Null collisions on the path: how many.
+    /// Number of null collisions on the path.
     Nulls,
-    /// The component that has drawn the path.
+    /// Hero component of the path.
     Hero,
 }
 
-/// Bins of wavelengths, and where they begin; what lies outside is in the first or last.
+/// Number of wavelength bins, and their range; wavelengths outside are in the first or last bin.
 const HERO_BINS: usize = 8;
 const HERO_NM: Range<f32> = 400.0..720.0;
-/// Orders up to here have layers of their own.
+/// Orders below this have separate layers.
 const ORDERS: usize = 8;
 
 impl Split {
-    /// All, in the order of pickers.
+    /// All splits, in display order.
     pub const ALL: [Self; 4] = [Self::Technique, Self::Order, Self::Nulls, Self::Hero];
 
-    /// Stable id, for the command line.
+    /// Stable id for the command line.
     #[must_use]
     pub fn id(self) -> &'static str {
         match self {
@@ -48,7 +49,7 @@ impl Split {
         }
     }
 
-    /// Name for people.
+    /// Display name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -59,7 +60,7 @@ impl Split {
         }
     }
 
-    /// Names of its layers, of which an image may leave some empty.
+    /// Names of all layers, including those that are empty in an image.
     #[must_use]
     pub fn layers(self) -> Vec<String> {
         match self {
@@ -72,35 +73,35 @@ impl Split {
                 let width = (HERO_NM.end - HERO_NM.start) / HERO_BINS as f32;
                 let bin = |i: usize| HERO_NM.start + width * i as f32;
                 let nm = (0..HERO_BINS).map(|i| format!("{:.0}–{:.0} nm", bin(i), bin(i + 1)));
-                nm.chain(["red", "green", "blue", "all alike"].map(Into::into)).collect()
+                nm.chain(["red", "green", "blue", "achromatic"].map(Into::into)).collect()
             }
         }
     }
 }
 
-/// Sorts what one path adds.
+/// Sorts the contributions of one path into layers.
 struct Sorter {
     split: Split,
     hero: usize,
     order: usize,
     nulls: u32,
-    /// Null collisions of a connection, or of a walk of its own, while there is one.
+    /// Null collisions of the current connection or separate walk, if there is one.
     aside: Option<u32>,
-    /// Whether that draws its events; a connection takes all collisions as null.
+    /// Whether the connection or walk samples its events; a connection treats all collisions as null.
     draws: bool,
-    by_angle: bool,
+    equiangular: bool,
     layers: Vec<DVec3>,
 }
 
 impl Sorter {
     fn new(split: Split) -> Self {
         let layers = vec![DVec3::ZERO; split.layers().len()];
-        Self { split, hero: 0, order: 0, nulls: 0, aside: None, draws: false, by_angle: false, layers }
+        Self { split, hero: 0, order: 0, nulls: 0, aside: None, draws: false, equiangular: false, layers }
     }
 
-    /// Forgets the last path.
+    /// Resets the state for a new path.
     fn clear(&mut self) {
-        (self.order, self.nulls, self.aside, self.by_angle) = (0, 0, None, false);
+        (self.order, self.nulls, self.aside, self.equiangular) = (0, 0, None, false);
         self.layers.fill(DVec3::ZERO);
     }
 
@@ -140,13 +141,13 @@ impl Observer for Sorter {
                 self.is_null();
             }
             Note::Vertex(_) => self.order += 1,
-            Note::Connect { .. } if !self.by_angle => (self.aside, self.draws) = (Some(0), false),
-            Note::EquiangularVertex => (self.by_angle, self.aside, self.draws) = (true, Some(0), false),
+            Note::Connect { .. } if !self.equiangular => (self.aside, self.draws) = (Some(0), false),
+            Note::EquiangularVertex => (self.equiangular, self.aside, self.draws) = (true, Some(0), false),
             Note::LightWalk => (self.aside, self.draws) = (Some(0), true),
-            Note::Connected { arrives: false } if !self.by_angle => self.aside = None,
+            Note::Connected { arrives: false } if !self.equiangular => self.aside = None,
             Note::LightWalkEnds => self.aside = None,
-            Note::EquiangularVertexEnds => (self.by_angle, self.aside) = (false, None),
-            Note::Credit { technique, film, .. } => {
+            Note::EquiangularVertexEnds => (self.equiangular, self.aside) = (false, None),
+            Note::Contribution { technique, film, .. } => {
                 let layer = self.layer(*technique);
                 self.layers[layer] += film.as_dvec3();
                 if *technique == Technique::Connection {
@@ -158,64 +159,64 @@ impl Observer for Sorter {
     }
 }
 
-/// Which paths are sorted, and how.
+/// Selection of the paths that are sorted.
 #[derive(Clone, Copy)]
 pub struct StrategyPlan<'a> {
     /// The frozen scene.
     pub scene: &'a Scene,
-    /// Scenes of earlier samples, whose majorants were lower, each with the sample that it ends before.
+    /// Scenes of earlier samples, with lower majorants, each with the index after its last sample.
     pub earlier: &'a [(u64, Arc<Scene>)],
-    /// The estimator's.
+    /// Kernel of the estimator.
     pub kernel: Kernel,
-    /// What the paths are traced with.
+    /// Settings of the paths.
     pub settings: &'a Settings,
-    /// Left, top, right and bottom of the pixels that are traced; right and bottom are outside.
+    /// Left, top, right and bottom of the traced pixels; right and bottom are exclusive.
     pub window: [u32; 4],
-    /// Every so many columns and rows of the window there is a pixel; 1 for all.
+    /// Distance between traced columns and rows of the window; 1 for all pixels.
     pub stride: u32,
-    /// The first sample of every pixel, and the one after the last.
+    /// First sample of every pixel, and the one after the last.
     pub samples: (u64, u64),
 }
 
 impl<'a> StrategyPlan<'a> {
-    /// All pixels of an image.
+    /// A plan for all pixels of an image.
     #[must_use]
     pub fn whole(scene: &'a Scene, kernel: Kernel, settings: &'a Settings, samples: (u64, u64)) -> Self {
         let window = [0, 0, scene.width, scene.height];
         Self { scene, earlier: &[], kernel, settings, window, stride: 1, samples }
     }
 
-    /// The path of one sample, as the film has it.
+    /// Traces the path of one sample, identical to the film's.
     pub(super) fn trace(&self, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
         (self.kernel)(scene_of(self.scene, self.earlier, at.sample), self.settings, at, context)
     }
 
-    /// Columns and rows that are traced.
+    /// Numbers of traced columns and rows.
     pub(super) fn size(&self) -> (usize, usize) {
         let [left, top, right, bottom] = self.window;
         let pixels = |from: u32, to: u32| to.saturating_sub(from).div_ceil(self.stride.max(1)) as usize;
         (pixels(left, right), pixels(top, bottom))
     }
 
-    /// The pixel of a column and a row.
+    /// Pixel of a traced column and row.
     pub(super) fn pixel(&self, column: usize, row: usize) -> [u32; 2] {
         let [left, top, ..] = self.window;
         let stride = self.stride.max(1);
         [left + column as u32 * stride, top + row as u32 * stride]
     }
 
-    /// Samples of every pixel.
+    /// Number of samples per pixel.
     pub(super) fn spp(&self) -> usize {
         self.samples.1.saturating_sub(self.samples.0) as usize
     }
 }
 
-/// The scene that a sample is traced in: the newest, or an earlier one that ends after it.
+/// Scene in which a sample is traced: the newest, or the first earlier one that ends after the sample.
 pub(crate) fn scene_of<'a>(newest: &'a Scene, earlier: &'a [(u64, Arc<Scene>)], sample: u64) -> &'a Scene {
     earlier.iter().find(|(end, _)| sample < *end).map_or(newest, |(_, scene)| scene)
 }
 
-/// The name of the layer that has most of one path's light.
+/// Name of the layer with the largest contribution of one path.
 pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -> String {
     let mut sorter = Sorter::new(split);
     plan.trace(at, PathContext::observed(CancelToken::NEVER, &mut sorter));
@@ -224,14 +225,15 @@ pub(super) fn main_layer(plan: &StrategyPlan<'_>, at: PathIndex, split: Split) -
     largest.and_then(|(i, _)| split.layers().into_iter().nth(i)).unwrap_or_default()
 }
 
-/// One part of an image.
+/// Contributions of one layer to an image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name for people.
+    /// Display name.
     pub name: String,
-    /// Mean linear sRGB over the samples that are finite, row by row from the top; NaN where none is, as on the film.
+    /// Mean linear sRGB over the finite samples, row by row from the top; NaN without finite samples, as on
+    /// the film.
     pub mean: Vec<[f32; 3]>,
-    /// Cov(X_k, X) of one sample, summed over channels, pixel by pixel; zero below two samples.
+    /// Cov(X_k, X) of one sample, summed over channels, per pixel; zero below two samples.
     pub covariance: Vec<f32>,
 }
 
@@ -244,29 +246,30 @@ impl Layer {
     }
 }
 
-/// An image taken apart.
+/// Image separated into layers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strategies {
-    /// By what.
+    /// Property by which contributions are separated.
     pub split: Split,
-    /// Columns.
+    /// Width in pixels.
     pub width: usize,
-    /// Rows.
+    /// Height in pixels.
     pub height: usize,
-    /// Samples per pixel, those that are not finite included.
+    /// Samples per pixel, including non-finite ones.
     pub spp: u64,
     /// Layers that are not black everywhere.
     pub layers: Vec<Layer>,
 }
 
-/// Sums over the finite samples of a pixel: of every layer, and of its product with all of them, summed over channels.
+/// Sums over the finite samples of a pixel: of every layer, and of its product with the total, summed over
+/// channels.
 struct Sums {
     count: u64,
     layers: Vec<DVec3>,
     products: Vec<f64>,
 }
 
-/// Sorts what one path adds in several ways at once.
+/// Sorts the contributions of one path by several splits at once.
 struct Sorters(Vec<Sorter>);
 
 impl Observer for Sorters {
@@ -276,13 +279,13 @@ impl Observer for Sorters {
 }
 
 impl Strategies {
-    /// Traces some samples of every pixel and sorts what they add; `None` if it was called off.
+    /// Traces the samples of every pixel and sorts their contributions; `None` after cancellation.
     #[must_use]
     pub fn render(plan: &StrategyPlan<'_>, split: Split, cancel: CancelToken<'_>) -> Option<Self> {
         Self::render_all(plan, &[split], cancel)?.pop()
     }
 
-    /// The same paths, sorted in several ways.
+    /// Sorts the contributions of the same paths by several splits.
     #[must_use]
     pub fn render_all(
         plan: &StrategyPlan<'_>,
@@ -308,7 +311,7 @@ impl Strategies {
         Some(splits.iter().enumerate().map(of).collect())
     }
 
-    /// The sums of a row, pixel by pixel and split by split.
+    /// Sums of a row, by pixel and split.
     fn row(
         plan: &StrategyPlan<'_>,
         splits: &[Split],
@@ -325,7 +328,7 @@ impl Strategies {
                 sorters.0.iter_mut().for_each(Sorter::clear);
                 let context = PathContext::observed(cancel, &mut sorters);
                 let estimate = plan.trace(PathIndex { x, y, sample }, context);
-                // Asked after each path: the estimate of an unwanted one must not be kept.
+                // Checked after each path: the estimate of a cancelled path must not be used.
                 if !cancel.is_active() {
                     return None;
                 }
@@ -338,8 +341,8 @@ impl Strategies {
         Some(pixels)
     }
 
-    /// The share of each layer in the variance of one sample, over some of the pixels; they sum to one. `None` where
-    /// there is no variance.
+    /// Share of each layer in the variance of one sample, over a subset of the pixels; the shares sum to one.
+    /// `None` if the variance is zero.
     #[must_use]
     pub fn variance_shares(&self, pixels: impl Fn(usize, usize) -> bool) -> Option<Vec<f64>> {
         let inside = |i: usize| pixels(i % self.width, i / self.width);
@@ -368,7 +371,7 @@ impl Sums {
     }
 
     fn mean(&self, k: usize) -> [f32; 3] {
-        // None at all is no value: 0 / 0.
+        // NaN without samples: 0 / 0.
         (self.layers[k] / self.count as f64).as_vec3().to_array()
     }
 

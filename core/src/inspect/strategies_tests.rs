@@ -7,14 +7,9 @@ use crate::transport::Trace;
 
 const SPP: u64 = 24;
 
-/// Adds light by every technique, as many orders and null collisions as a number decides; every so many samples something
-/// is not finite: one layer of it, or only the whole. Every sample of the pixels of column 0 is.
-fn now_and_then_without_a_value(
-    _: &Scene,
-    _: &Settings,
-    at: PathIndex,
-    context: PathContext<'_>,
-) -> PathEstimate {
+/// Adds contributions of every technique, with pseudo-random orders and numbers of null collisions. Some
+/// samples are not finite, in one layer or only in their sum, and all samples of the pixels of column 0.
+fn occasionally_non_finite(_: &Scene, _: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     let number = at.sample + 3 * u64::from(at.x) + 7 * u64::from(at.y);
     let mut trace = Trace::new(crate::math::Sampler::new(5, number, 0), context);
     let mut sum = Vec3::ZERO;
@@ -22,11 +17,11 @@ fn now_and_then_without_a_value(
         let broken = at.x == 0 || number % 11 == i as u64;
         let film = if broken { Vec3::new(1.0, f32::NAN, 1.0) } else { Vec3::splat(trace.sampler.next_1d()) };
         for _ in 0..number % 3 {
-            trace.tell(|| Note::Drawn { event: Event::Null, u: 0.5 });
+            trace.notify(|| Note::Drawn { event: Event::Null, u: 0.5 });
         }
         sum += film;
         let lanes = film.extend(0.0).to_array();
-        trace.tell(move || Note::Credit {
+        trace.notify(move || Note::Contribution {
             technique,
             emitted: lanes,
             other_density: 0.0,
@@ -52,10 +47,10 @@ fn film(probe: &Probe) -> Film {
     render(probe, &pool, Budget::Samples(SPP)).film
 }
 
-/// Parts and film count the same samples, whichever part of a sample has no value.
+/// Layers and film count the same samples, whichever layer of a sample is not finite.
 #[test]
-fn parts_sum_to_the_film_where_samples_are_not_finite() {
-    let probe = probe(now_and_then_without_a_value);
+fn layers_sum_to_the_film_where_samples_are_not_finite() {
+    let probe = probe(occasionally_non_finite);
     let film = film(&probe);
     for split in Split::ALL {
         let parts = probe.strategies(split, 0..SPP, CancelToken::NEVER).unwrap();
@@ -63,10 +58,10 @@ fn parts_sum_to_the_film_where_samples_are_not_finite() {
         for (i, pixel) in film.pixels.iter().enumerate() {
             let sum: DVec3 = parts.layers.iter().map(|l| Vec3::from_array(l.mean[i]).as_dvec3()).sum();
             if i % 5 == 0 {
-                assert!(pixel.count == 0 && sum.y.is_nan(), "a pixel without a value");
+                assert!(pixel.count == 0 && sum.y.is_nan(), "a pixel without finite samples");
                 continue;
             }
-            assert!(pixel.count > 0 && pixel.count < SPP, "some samples are left out: {}", pixel.count);
+            assert!(pixel.count > 0 && pixel.count < SPP, "some samples are rejected: {}", pixel.count);
             for (c, mean) in pixel.mean.iter().enumerate() {
                 assert!((sum[c] - mean).abs() < 1e-6 * mean.abs(), "{}: {sum} {mean}", split.name());
             }

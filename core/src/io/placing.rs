@@ -57,11 +57,11 @@ pub(super) fn place<const C: usize>(
     let object_from_unit =
         Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
     // The readers choose the box of `.npy` and `.raw` files.
-    let says_where =
+    let has_position =
         path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));
     let grid = Arc::new(grid);
     let majorants = Arc::new(Majorants::new(Arc::clone(&grid)));
-    Ok(PlacedGrid { name, grid, majorants, object_from_unit, says_where, notices })
+    Ok(PlacedGrid { name, grid, majorants, object_from_unit, has_position, notices })
 }
 
 /// Grid of an array, and the transformation from the unit cube to its indices.

@@ -1,4 +1,4 @@
-//! The mean of a quantity over a region, with its scatter.
+//! Mean and standard error of a quantity over a region.
 
 use rayon::prelude::*;
 
@@ -8,17 +8,17 @@ use super::{MeasureError, Measured, Picture, ReferencePicture, Region};
 /// One channel of one pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Channel {
-    /// The picture.
+    /// Value of the image.
     pub a: f64,
-    /// The reference.
+    /// Value of the reference.
     pub r: f64,
-    /// Standard error of the reference; 0 if it is taken as exact.
+    /// Standard error of the reference; 0 if the reference is assumed to be exact.
     pub noise: f64,
-    /// A number of its own, the same wherever the region lies in its picture.
+    /// Index of the channel within the region, independent of the region's position in the image.
     pub key: u64,
 }
 
-/// Averages over pixels and channels: `of` gives a channel's value and the reference's share of it.
+/// Averages over pixels and channels: `of` returns the value of a channel and the reference's share in it.
 pub(super) fn average(
     picture: &Picture,
     reference: &ReferencePicture,
@@ -44,8 +44,8 @@ pub(super) fn average(
     )
 }
 
-/// Averages over those pixels of a region that are finite in the reference and by `finite`: `of` gives a
-/// pixel's value and the reference's share of it, from its index and its number in the region.
+/// Averages over the pixels of a region that are finite in the reference and by `finite`: `of` returns a
+/// pixel's value and the reference's share in it, from its index in the image and in the region.
 pub(super) fn average_pixels(
     reference: &ReferencePicture,
     region: Region,
@@ -72,11 +72,12 @@ pub(super) fn average_pixels(
             row
         })
         .collect();
-    // In the order of rows: the same sum whichever thread took which row.
+    // In the order of rows, so that the sum does not depend on the threads.
     Ok(rows.iter().fold(Moments::default(), Moments::merged).finish())
 }
 
-/// Running mean and squared deviations, by Welford's update (1962), merged by Chan, Golub and LeVeque's.
+/// Running mean and squared deviations, by Welford's update (1962), merged by the formula of Chan, Golub and
+/// LeVeque.
 #[derive(Clone, Copy, Default)]
 struct Moments {
     count: u64,

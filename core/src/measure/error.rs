@@ -1,29 +1,29 @@
-//! Why a picture could not be measured.
+//! Errors of measuring an image.
 
-/// Why a picture could not be measured.
+/// Error of measuring an image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum MeasureError {
-    /// Picture and reference have different sizes.
+    /// Image and reference differ in size.
     #[error(
-        "the picture has {} × {} pixels, but the reference {} × {}: render both at one size",
+        "the image has {} × {} pixels, but the reference {} × {}: render both at the same size",
         picture[0], picture[1], reference[0], reference[1]
     )]
     Sizes {
-        /// Columns and rows of the picture.
+        /// Columns and rows of the image.
         picture: [usize; 2],
         /// Columns and rows of the reference.
         reference: [usize; 2],
     },
-    /// A buffer does not hold as many pixels as its picture says.
-    #[error("{what} is said to have {width} × {height} pixels, but {held} values are there")]
+    /// A buffer does not match the size of its image.
+    #[error("{what} should have {width} × {height} pixels, but has {held} values")]
     Buffer {
-        /// Which buffer.
+        /// Name of the buffer.
         what: &'static str,
-        /// Columns it should have.
+        /// Expected columns.
         width: usize,
-        /// Rows it should have.
+        /// Expected rows.
         height: usize,
-        /// Pixels it holds.
+        /// Actual number of pixels.
         held: usize,
     },
 }

@@ -1,12 +1,12 @@
-//! Two pictures and what NumPy and the authors of FLIP say of them (`tests/measures`).
+//! Two images with measures computed by NumPy and by the authors of FLIP (`tests/measures`).
 
-// The layer test looks no further than this: what makes a test may come from anywhere.
+// The layer test skips code after this line; test code may import from any module.
 #[cfg(test)]
 use crate::io::volume::{ReadLimits, read_npy_bytes};
 
 use super::{Picture, ReferencePicture, Region};
 
-/// A stored array's values.
+/// Values of a stored array.
 pub(super) fn values(bytes: &[u8]) -> Vec<f32> {
     read_npy_bytes(bytes, "fixture", &ReadLimits::default()).unwrap().values
 }
@@ -19,7 +19,7 @@ pub(super) struct Fixture {
     pub picture: Vec<[f32; 3]>,
     pub reference: Vec<[f32; 3]>,
     pub stderr: Vec<[f32; 3]>,
-    /// What others found: `measures.json`.
+    /// Independently computed values: `measures.json`.
     pub truth: serde_json::Value,
 }
 
@@ -54,7 +54,7 @@ impl Fixture {
     }
 }
 
-/// A picture of the fixture's size.
+/// An image of the fixture's size.
 pub(super) fn of_size(pixels: &[[f32; 3]]) -> Picture<'_> {
     Picture { width: Fixture::WIDTH, height: Fixture::HEIGHT, pixels }
 }

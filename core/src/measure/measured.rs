@@ -1,31 +1,31 @@
-//! What a measure found.
+//! Result of an error measure.
 
-/// A measure's value, how well it is known, and what of it the reference is to blame for.
+/// Value of an error measure, with its standard error and the part due to noise of the reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// The plain formula's value; NaN if no pixel was counted.
+    /// Value of the plain formula; NaN if no pixel was counted.
     pub value: f64,
-    /// Standard error of the value, as far as the scatter over pixels tells: σ/√pixels, with the n − 1
-    /// estimate of σ; infinite below two pixels. Pixels are taken as independent.
+    /// Standard error of the value, from the spread over pixels: σ/√pixels, with the n − 1 estimate of σ;
+    /// infinite below two pixels. Pixels are assumed to be independent.
     pub error: f64,
-    /// What the reference's own noise is expected to have added to the value.
+    /// Expected contribution of the reference's noise to the value.
     pub reference_share: f64,
-    /// Pixels counted.
+    /// Number of pixels counted.
     pub pixels: u64,
-    /// Pixels left out because something in them, or in their standard error, is not finite.
+    /// Number of pixels excluded because they or their standard errors are not finite.
     pub excluded: u64,
 }
 
 impl Measured {
-    /// The value without the reference's share, not below 0.
+    /// The value without the contribution of the reference's noise, at least 0.
     #[must_use]
     pub fn corrected(&self) -> f64 {
-        // `max` would turn a value that is not known into 0.
+        // `max` would turn NaN into 0.
         if self.value.is_nan() { self.value } else { (self.value - self.reference_share).max(0.0) }
     }
 
-    /// How far [`Self::corrected`] may be off: the scatter over pixels and, in full, what was taken off for the
-    /// reference's noise. A reference that is about as noisy as the picture thus measures nothing, and shows it.
+    /// Uncertainty of [`Self::corrected`]: the standard error combined with the full correction for the
+    /// reference's noise. A reference about as noisy as the image therefore yields a large uncertainty.
     #[must_use]
     pub fn uncertainty(&self) -> f64 {
         self.error.hypot(self.reference_share)

@@ -1,21 +1,18 @@
-//! Error measures of a picture against a reference: one measure is one file and one line of [`MEASURES`].
+//! Error measures of an image against a reference: one entry of [`MEASURES`] each.
 //!
-//! A measure averages over the pixels of a [`Region`]. It tells apart what it saw (`value`, what anybody
-//! gets from the plain formula), how well the pixels determine that (`error`), and how much of it is owed
-//! to a reference that was itself rendered (`reference_share`).
+//! A measure averages over the pixels of a [`Region`]. It returns the value of the plain formula (`value`),
+//! its standard error over pixels (`error`), and the part due to the noise of a rendered reference
+//! (`reference_share`).
 
+mod absolute;
 mod average;
 mod error;
 pub mod flip;
-mod mae;
 mod measured;
-mod mse;
 mod picture;
 mod region;
-mod relmse;
 mod replicate;
-mod rmse;
-mod smape;
+mod squared;
 
 #[cfg(test)]
 mod fixture;
@@ -27,31 +24,31 @@ pub use measured::Measured;
 pub use picture::{Picture, ReferencePicture};
 pub use region::Region;
 
-/// The function that computes a measure.
+/// Function that computes a measure.
 pub type MeasureFn = fn(&Picture, &ReferencePicture, Region) -> Result<Measured, MeasureError>;
 
-/// One way to say how far a picture is from its reference.
+/// An error measure between an image and its reference.
 #[derive(Clone, Copy, Debug)]
 pub struct Measure {
-    /// Name in files and on the command line.
+    /// Id in files and on the command line.
     pub id: &'static str,
-    /// Name on screen.
+    /// Display name.
     pub name: &'static str,
-    /// What is averaged, in one line.
+    /// One-line formula.
     pub formula: &'static str,
-    /// What it is good for, in one sentence.
+    /// One-sentence description of its use.
     pub doc: &'static str,
-    /// Computes it.
+    /// Function that computes it.
     pub measure: MeasureFn,
-    /// Slope of log(value) against log(samples) that unbiased Monte Carlo tends to.
+    /// Slope of log(value) against log(samples) for unbiased Monte Carlo, in the limit.
     pub slope: f64,
 }
 
-/// Every measure.
+/// All measures.
 pub static MEASURES: &[Measure] =
-    &[mse::MEASURE, rmse::MEASURE, relmse::MEASURE, mae::MEASURE, smape::MEASURE, flip::MEASURE];
+    &[squared::MSE, squared::RMSE, squared::RELMSE, absolute::MAE, absolute::SMAPE, flip::MEASURE];
 
-/// The measure of that id.
+/// Returns the measure with this id.
 #[must_use]
 pub fn find(id: &str) -> Option<&'static Measure> {
     MEASURES.iter().find(|m| m.id == id)

@@ -1,4 +1,4 @@
-//! What every measure must agree with, and what must hold of it.
+//! Tests of all measures against independent programs, and of their common properties.
 
 use super::fixture::{Fixture, of_size};
 use super::*;
@@ -13,10 +13,10 @@ fn measure(id: &str, picture: &Picture, reference: &ReferencePicture, region: Re
     (find(id).unwrap().measure)(picture, reference, region).unwrap()
 }
 
-/// Standard normal numbers, three to a pixel.
+/// Standard normal random numbers, three per pixel.
 fn noise(seed: u64, pixel: usize) -> [f64; 3] {
     let mut sampler = Sampler::new(seed, pixel as u64, 0);
-    // The sum of twelve uniform numbers is normal enough here.
+    // The sum of twelve uniform numbers is close enough to normal here.
     [(); 3].map(|()| (0..12).map(|_| f64::from(sampler.next_1d())).sum::<f64>() - 6.0)
 }
 
@@ -80,7 +80,7 @@ fn a_region_is_a_crop() {
     let picture = Picture { width, height, pixels: &a };
     let reference =
         ReferencePicture { picture: Picture { width, height, pixels: &r }, standard_error: Some(&e) };
-    // FLIP sees what surrounds a region.
+    // FLIP depends on the surroundings of a region.
     for m in MEASURES.iter().filter(|m| m.id != "flip") {
         let of_region = (m.measure)(&fixture.picture(), &fixture.reference(), region).unwrap();
         let of_crop = (m.measure)(&picture, &reference, Region::whole(width, height)).unwrap();
@@ -91,7 +91,7 @@ fn a_region_is_a_crop() {
 #[test]
 fn what_is_not_finite_is_left_out_and_counted() {
     let mut fixture = Fixture::load();
-    // Two that agree but for three damaged pixels: whatever remains is 0.
+    // Images that agree except for three damaged pixels: the remaining error is 0.
     fixture.reference = fixture.picture.clone();
     fixture.picture[100][1] = f32::NAN;
     fixture.reference[777][2] = f32::INFINITY;
@@ -100,7 +100,7 @@ fn what_is_not_finite_is_left_out_and_counted() {
         let found = (m.measure)(&fixture.picture(), &fixture.reference(), Fixture::WHOLE).unwrap();
         assert_eq!((found.pixels, found.excluded), (48 * 36 - 3, 3), "{}", m.id);
         assert_eq!(found.value, 0.0, "{}", m.id);
-        // A region that holds one of them (row 2, column 4).
+        // A region that contains one of them (row 2, column 4).
         let found = (m.measure)(&fixture.picture(), &fixture.reference(), Region::whole(10, 10)).unwrap();
         assert_eq!((found.pixels, found.excluded), (99, 1), "{}", m.id);
     }
@@ -127,7 +127,7 @@ fn any_input_is_measured_or_refused() {
         let refused = (m.measure)(&wide, &fixture.reference(), Fixture::WHOLE).unwrap_err();
         assert_eq!(
             refused.to_string(),
-            "the picture has 36 × 48 pixels, but the reference 48 × 36: render both at one size"
+            "the image has 36 × 48 pixels, but the reference 48 × 36: render both at the same size"
         );
         for bad in [short, overflowing] {
             assert!((m.measure)(&bad, &fixture.reference(), Fixture::WHOLE).is_err());
@@ -145,13 +145,13 @@ fn any_input_is_measured_or_refused() {
     }
 }
 
-/// Squares can be debiased exactly: of a perfect picture nothing remains but chance.
+/// Squared errors can be debiased exactly: for a perfect image only chance remains.
 #[test]
 fn the_references_noise_does_not_count_against_a_perfect_picture() {
     let fixture = Fixture::load();
     let truth = &fixture.reference;
     let seeds = 200u32;
-    // Not clamped at 0, which would make the mean of chance positive.
+    // Not clamped at 0, which would bias the mean.
     let corrected: Vec<f64> = (0..seeds)
         .map(|seed| {
             let noisy = with_noise(truth, |i| fixture.stderr[i], u64::from(seed));
@@ -170,7 +170,7 @@ fn the_references_noise_does_not_count_against_a_perfect_picture() {
     assert!(error < 0.01 * share, "sees too little: {error:e} of {share:e}");
 }
 
-/// Of a noisy picture, every corrected measure is closer to what the true reference gives.
+/// For a noisy image, every corrected measure is closer to its value against the true reference.
 #[test]
 fn correction_helps_where_both_are_noisy() {
     let fixture = Fixture::load();

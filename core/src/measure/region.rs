@@ -17,26 +17,26 @@ pub struct Region {
 }
 
 impl Region {
-    /// All of a picture.
+    /// The region of a whole image.
     #[must_use]
     pub fn whole(width: usize, height: usize) -> Self {
         Self { x0: 0, y0: 0, x1: width, y1: height }
     }
 
-    /// The part that lies in a picture of that size.
+    /// The part of the region inside an image of this size.
     #[must_use]
     pub fn clipped(self, width: usize, height: usize) -> Self {
         let (x1, y1) = (self.x1.min(width), self.y1.min(height));
         Self { x0: self.x0.min(x1), y0: self.y0.min(y1), x1, y1 }
     }
 
-    /// Whether a pixel lies in it.
+    /// Returns whether the region contains a pixel.
     #[must_use]
     pub fn contains(self, x: usize, y: usize) -> bool {
         (self.x0..self.x1).contains(&x) && (self.y0..self.y1).contains(&y)
     }
 
-    /// Whether no pixel lies in it.
+    /// Returns whether the region contains no pixel.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.x0 >= self.x1 || self.y0 >= self.y1
@@ -54,7 +54,7 @@ impl Region {
         self.y1.saturating_sub(self.y0)
     }
 
-    /// Indices of its pixels, row by row, in a picture of that size; what lies outside is left out.
+    /// Indices of the pixels, row by row, in an image of this size; pixels outside the image are omitted.
     pub fn indices(self, width: usize, height: usize) -> impl Iterator<Item = usize> {
         let inside = self.clipped(width, height);
         (inside.y0..inside.y1).flat_map(move |y| (inside.x0..inside.x1).map(move |x| y * width + x))
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_part_inside_is_what_is_iterated() {
+    fn indices_cover_the_part_inside_the_image() {
         let region = Region { x0: 2, y0: 1, x1: 9, y1: 3 };
         assert_eq!(region.clipped(4, 9), Region { x0: 2, y0: 1, x1: 4, y1: 3 });
         assert_eq!(region.indices(4, 9).collect::<Vec<_>>(), [6, 7, 10, 11]);
@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_outside_or_is_turned_over_is_empty() {
+    fn regions_outside_or_inverted_are_empty() {
         for region in [
             Region { x0: 5, y0: 0, x1: 9, y1: 3 },
             Region { x0: 0, y0: 7, x1: 2, y1: usize::MAX },

@@ -1,16 +1,16 @@
-//! A second, noisier reference, to see what a noisy reference does to a measure that is not a square.
+//! Simulated noisier reference, which shows the effect of reference noise on measures that are not squares.
 
 use std::f64::consts::TAU;
 
 use super::average::Channel;
 use crate::math::Sampler;
 
-/// Fixed, so that a picture measured twice gives the same number.
+/// Fixed, so that measuring an image twice gives the same value.
 const SEED: u64 = 0x6d65_6173_7572_6521;
 
-/// What noise as large as the reference's adds to `distance(A, R)`: distance(A, R + σξ) − distance(A, R)
-/// with one standard normal ξ. The reference has moved from the truth by one σξ already; a second step of
-/// the same size shows about what the first has added (simulation extrapolation: Cook and Stefanski,
+/// Expected contribution of reference noise to `distance(A, R)`: distance(A, R + σξ) − distance(A, R) with
+/// one standard normal ξ. The reference already differs from the truth by one σξ, and a second step of the
+/// same size adds about as much as the first (simulation extrapolation: Cook and Stefanski,
 /// "Simulation-Extrapolation Estimation in Parametric Measurement Error Models", 1994, linear form).
 pub(super) fn added_by_noise(channel: Channel, distance: impl Fn(f64, f64) -> f64) -> f64 {
     let Channel { a, r, noise, key } = channel;
@@ -20,7 +20,7 @@ pub(super) fn added_by_noise(channel: Channel, distance: impl Fn(f64, f64) -> f6
     distance(a, r + noise * normal(key)) - distance(a, r)
 }
 
-/// A standard normal number, by Box and Muller (1958).
+/// Standard normal random number, by Box and Muller (1958).
 fn normal(key: u64) -> f64 {
     let u = Sampler::new(SEED, key, 0).next_2d();
     // The first is below 1, so the logarithm is finite.
@@ -41,7 +41,7 @@ mod tests {
                 *m += x.powi(k as i32 + 1) / n as f64;
             }
         }
-        // Standard errors √(1, 2, 15, 96)/√n, five of them.
+        // Within five standard errors √(1, 2, 15, 96)/√n.
         for (m, (expected, sd)) in moments.iter().zip([(0.0, 1.0), (1.0, 1.5), (0.0, 3.9), (3.0, 9.8)]) {
             assert!((m - expected).abs() < 5.0 * sd / (n as f64).sqrt(), "{moments:?}");
         }

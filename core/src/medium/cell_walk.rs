@@ -1,48 +1,48 @@
-//! The walk through majorant cells: a 3D digital differential analyser (Amanatides and Woo 1987).
+//! Traversal of majorant cells: a 3D digital differential analyser (Amanatides and Woo 1987).
 
 use super::MajorantGrid;
 use crate::math::BoxRay;
 use glam::{UVec3, Vec3A};
 
-/// A stretch of a ray inside one cell.
+/// Segment of a ray inside one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellSegment<const C: usize> {
-    /// Ray parameter at which it begins.
+    /// Ray parameter at its start.
     pub t0: f32,
-    /// Ray parameter at which it ends.
+    /// Ray parameter at its end.
     pub t1: f32,
     /// Bound of the field in the cell.
     pub bound: [f32; C],
 }
 
-/// The cells along a ray whose bound is not zero, in order; empty ones are passed over.
+/// Iterator over the cells along a ray whose bound is not zero, in order.
 ///
-/// Which face comes next is a matter of chance, so it is found by arithmetic instead of branches.
+/// Which face comes next is unpredictable, so the axis is found by arithmetic instead of branches.
 #[derive(Clone, Copy, Debug)]
 pub struct CellWalk<'a, const C: usize> {
     grid: &'a MajorantGrid<C>,
-    /// Number of the cell that is entered at `t`.
+    /// Index of the cell that is entered at `t`.
     cell: usize,
     t: f32,
     t_end: f32,
     /// Ray parameter of the next face along each axis.
     next: Vec3A,
-    /// Parameter between faces along each axis.
+    /// Ray parameter between faces along each axis.
     step: Vec3A,
-    /// What crossing a face adds to the cell's number; wraps where it is negative.
+    /// Change of the cell index on crossing a face; wraps where it is negative.
     stride: [usize; 3],
 }
 
 const UNIT: [Vec3A; 4] = [Vec3A::X, Vec3A::Y, Vec3A::Z, Vec3A::ZERO];
 
 impl<'a, const C: usize> CellWalk<'a, C> {
-    /// Starts where the ray starts, within the cube.
+    /// Creates a walk that starts at the ray's origin, inside the cube.
     #[must_use]
     #[inline]
     pub fn new(grid: &'a MajorantGrid<C>, ray: &BoxRay) -> Self {
         let n = grid.cells() as f32;
         let place = ray.origin * n;
-        // The last cell holds the cube's far faces, too.
+        // The last cell includes the cube's far faces.
         let [i, j, k] = place.clamp(Vec3A::ZERO, Vec3A::splat(n - 0.5)).as_uvec3().to_array();
         let forward = ray.direction.cmpgt(Vec3A::ZERO);
         let step = ray.inverse / n;
@@ -54,7 +54,7 @@ impl<'a, const C: usize> CellWalk<'a, C> {
             cell: grid.number([i as usize, j as usize, k as usize]),
             t: 0.0,
             t_end: ray.t_end,
-            // Never behind the start: rounding may put it just beyond the face.
+            // Never behind the start: rounding may put the start just beyond the face.
             next: ((face - place) * step).max(Vec3A::ZERO),
             step: step.abs(),
             stride: [signed(x, forward.test(0)), signed(y, forward.test(1)), signed(z, forward.test(2))],
@@ -75,7 +75,7 @@ impl<const C: usize> Iterator for CellWalk<'_, C> {
                 bound: self.grid.bound_by_number(self.cell),
             };
             self.t = face;
-            // One face at a time: where a ray meets an edge, a cell of length zero comes between.
+            // One face at a time: where a ray hits an edge, a cell of length zero is inserted.
             let axis = self.next.cmple(Vec3A::splat(face)).bitmask().trailing_zeros() as usize % 4;
             self.next += self.step * UNIT[axis];
             self.cell = self.cell.wrapping_add(self.stride[axis.min(2)]);
@@ -97,7 +97,7 @@ mod tests {
     fn noise(size: [usize; 3], lattice: Lattice) -> Grid<1> {
         let mut random = Sampler::new(3, 1, 4);
         let count = size.iter().product();
-        // A third of it empty, in runs.
+        // A third of the samples are empty, in runs.
         let values =
             (0..count).map(|i: usize| [if (i / 7).is_multiple_of(3) { 0.0 } else { random.next_1d() }]);
         Grid::new(size, values.collect(), lattice).expect("the sizes agree")
@@ -119,7 +119,7 @@ mod tests {
             for i in 0..400 {
                 let target = Vec3::new(random.next_1d(), random.next_1d(), random.next_1d());
                 let mut direction = uniform_direction(random.next_2d()) * 3.0;
-                // Along the axes, and in the faces of cells, too.
+                // Includes rays along the axes and in the faces of cells.
                 if i % 5 == 0 {
                     direction = Vec3::AXES[i % 3] * if i % 2 == 0 { 1.0 } else { -1.0 };
                 }
@@ -153,7 +153,7 @@ mod tests {
         let one = MajorantGrid::new(&grid, 1, Interpolation::Trilinear);
         assert!((one.bound([0; 3])[0] / grid.max()[0] - 1.0).abs() < 1e-6);
         assert!((one.mean([0; 3]) / grid.mean()[0] - 1.0).abs() < 1e-5);
-        // Halving gives bounds that hold as well, and never looser ones.
+        // Halving gives valid bounds that are never looser.
         let mut fine = MajorantGrid::new(&grid, 8, Interpolation::Trilinear);
         while let Some(coarse) = fine.halved() {
             let direct = MajorantGrid::new(&grid, coarse.cells(), Interpolation::Trilinear);

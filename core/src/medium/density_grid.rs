@@ -1,4 +1,4 @@
-//! A scalar density: σt(x, λ) = scale · density(x) · σ(λ), albedo(λ) the same everywhere.
+//! Density grids: σt(x, λ) = scale · density(x) · σ(λ), with an albedo(λ) that is constant in space.
 
 use super::{
     CellWalk, Coefficients, ExtinctionPrior, Grid, Interpolation, LocalMedium, MajorantGrid, MajorantPolicy,
@@ -9,16 +9,16 @@ use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// A medium whose density comes from a grid.
+/// Medium with a scalar density grid.
 #[derive(Clone, Debug)]
 pub struct DensityGrid {
-    /// Density by place.
+    /// Density.
     pub density: Arc<Grid<1>>,
-    /// Between samples.
+    /// Interpolation between samples.
     pub interpolation: Interpolation,
-    /// Bounds of the density, by cell.
+    /// Bounds of the density, per cell.
     pub bounds: Arc<MajorantGrid<1>>,
-    /// Extinction of density 1: scale · σ(λ), per scene unit.
+    /// Extinction at density 1: scale · σ(λ), per scene unit.
     pub extinction: Spectrum,
     /// Albedo(λ).
     pub albedo: Spectrum,
@@ -26,7 +26,7 @@ pub struct DensityGrid {
     pub majorant: MajorantPolicy,
 }
 
-/// [`DensityGrid`] at a path's components.
+/// A [`DensityGrid`] at the components of a path.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalDensityGrid<'a, const N: usize> {
     density: &'a Grid<1>,
@@ -34,7 +34,7 @@ pub struct LocalDensityGrid<'a, const N: usize> {
     bounds: &'a MajorantGrid<1>,
     extinction: Sampled<N>,
     albedo: Sampled<N>,
-    /// Majorant where the density is bounded by 1.
+    /// Majorant at a density bound of 1.
     majorant: Sampled<N>,
     policy: MajorantPolicy,
 }
@@ -84,7 +84,7 @@ impl<const N: usize> LocalMedium<N> for LocalDensityGrid<'_, N> {
     }
 }
 
-/// Majorants along a ray, in proportion to the bounds of a density.
+/// Majorant segments along a ray, proportional to the bounds of a density.
 #[derive(Clone, Debug)]
 pub struct DensitySegments<'a, const N: usize> {
     pub(super) cells: CellWalk<'a, 1>,

@@ -1,4 +1,4 @@
-//! Local bounds of a field, from above and from below: one of each per cell of a coarse lattice over the unit cube.
+//! Local upper and lower bounds of a field, per cell of a coarse grid over the unit cube.
 
 use super::majorant::ROUNDED_UP;
 use super::{CellWalk, Grid, Interpolation, Violations};
@@ -6,29 +6,30 @@ use crate::math::BoxRay;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// How far beyond its own cell a bound holds, in samples: a point on a ray may round across a face.
+/// Distance, in samples, by which bounds extend beyond their cell: rounding may move a point on a ray across
+/// a face.
 const REACH: f32 = 1e-3;
 
 /// Bounds of an interpolated field over `n³` cells of the unit cube.
 #[derive(Clone, Debug)]
 pub struct MajorantGrid<const C: usize> {
     cells: usize,
-    /// `(n + 2)³` bounds, x fastest: the outermost layer is empty, so that a walk which rounds out of the
-    /// cube finds nothing there.
+    /// `(n + 2)³` bounds, x fastest. The outermost layer is zero, so that a walk that leaves the cube by
+    /// rounding finds an empty cell.
     padded: Vec<[f32; C]>,
     /// Lower bounds of `n³` cells, x fastest.
     least: Vec<[f32; C]>,
-    /// Mean of the field over each of `n³` cells, largest channel.
+    /// Mean of the field over each of `n³` cells, maximum over the channels.
     mean: Vec<f32>,
 }
 
 impl<const C: usize> MajorantGrid<C> {
-    /// Bounds the field that look-ups see over every cell, neighbouring samples included: a stochastic look-up
-    /// may meet any of those.
+    /// Computes bounds of the field over every cell, including neighbouring samples that look-ups read: a
+    /// stochastic look-up may return any of them.
     ///
-    /// Trilinear interpolation is linear along every axis, so it is largest at the samples and where the
-    /// cell's faces cut the lattice; taking the maximum axis by axis never falls below that, and exceeds
-    /// it by less than the largest neighbouring sample does.
+    /// Trilinear interpolation is linear along every axis, so its maximum is at the samples and where the
+    /// cell's faces cut the lattice. The maximum taken axis by axis is never below that, and exceeds it by
+    /// less than the largest neighbouring sample does.
     #[must_use]
     pub fn new(grid: &Grid<C>, cells: usize, interpolation: Interpolation) -> Self {
         let cells = cells.max(1);
@@ -49,7 +50,7 @@ impl<const C: usize> MajorantGrid<C> {
             .collect();
         let layers: Vec<_> = spans[2].par_iter().map(|span| span.summary(&planes, cells * cells)).collect();
         let Summary { largest, smallest, sum } = Summary::joined(&layers, cells * cells);
-        // Rounding in the interpolation itself is relative to the values.
+        // Rounding errors of the interpolation itself are relative to the values.
         let bound: Vec<_> = largest.iter().map(|b| b.map(|b| b * (1.0 + 4.0 * f32::EPSILON))).collect();
         let count = |cell: usize| {
             let at = [cell % cells, cell / cells % cells, cell / cells / cells];
@@ -70,7 +71,8 @@ impl<const C: usize> MajorantGrid<C> {
         grid
     }
 
-    /// The same with every bound as many times as large as the extinction was found to exceed it.
+    /// Returns the grid with every bound multiplied by the maximum ratio of extinction to majorant found in
+    /// its cell.
     #[must_use]
     pub fn raised(&self, by: &Violations) -> Self {
         let mut raised = self.clone();
@@ -85,7 +87,8 @@ impl<const C: usize> MajorantGrid<C> {
         raised
     }
 
-    /// Half as many cells per axis, each the largest of eight; `None` for an odd number of cells.
+    /// Returns the grid with half as many cells per axis, each bounding eight cells; `None` for an odd number
+    /// of cells.
     #[must_use]
     pub fn halved(&self) -> Option<Self> {
         if !self.cells.is_multiple_of(2) {
@@ -118,61 +121,61 @@ impl<const C: usize> MajorantGrid<C> {
         self.cells
     }
 
-    /// The bound of the field in a cell.
+    /// Upper bound of the field in a cell.
     #[must_use]
     pub fn bound(&self, cell: [usize; 3]) -> [f32; C] {
         self.padded[self.number(cell)]
     }
 
-    /// The lower bound of the field in a cell: the least of all samples that look-ups there may read.
+    /// Lower bound of the field in a cell: the minimum of all samples that look-ups there may read.
     #[must_use]
     #[inline]
     pub fn least(&self, [x, y, z]: [usize; 3]) -> [f32; C] {
         self.least[x + self.cells * (y + self.cells * z)]
     }
 
-    /// Mean of the field over a cell, largest channel.
+    /// Mean of the field over a cell, maximum over the channels.
     #[must_use]
     pub fn mean(&self, [x, y, z]: [usize; 3]) -> f32 {
         self.mean[x + self.cells * (y + self.cells * z)]
     }
 
-    /// The cell that a point of the unit cube lies in.
+    /// Cell that contains a point of the unit cube.
     #[must_use]
     #[inline]
     pub fn cell_at(&self, unit: Vec3) -> [usize; 3] {
-        // A cast from below zero gives zero.
+        // Casts of negative numbers saturate at zero.
         (unit * self.cells as f32).to_array().map(|x| (x as usize).min(self.cells - 1))
     }
 
-    /// Mean over all cells of the bound's largest channel: what a straight line through the box meets.
+    /// Mean over all cells of the bound, maximum over the channels.
     #[must_use]
     pub fn mean_bound(&self) -> f32 {
         let largest = |bound: &[f32; C]| f64::from(bound.iter().fold(0.0f32, |a, b| a.max(*b)));
         (self.padded.iter().map(largest).sum::<f64>() / self.cells.pow(3) as f64) as f32
     }
 
-    /// What a cell goes by in a walk.
+    /// Index of a cell in the padded array.
     #[inline]
     pub(super) fn number(&self, [x, y, z]: [usize; 3]) -> usize {
         let [_, row, layer] = self.strides();
         (x + 1) + row * (y + 1) + layer * (z + 1)
     }
 
-    /// Between the numbers of neighbours along each axis.
+    /// Index differences between neighbours along each axis.
     #[inline]
     pub(super) fn strides(&self) -> [usize; 3] {
         let row = self.cells + 2;
         [1, row, row * row]
     }
 
-    /// The bound by a cell's number; nothing beyond the last.
+    /// Bound of the cell with this index in the padded array; zero beyond the last.
     #[inline]
     pub(super) fn bound_by_number(&self, number: usize) -> [f32; C] {
         self.padded.get(number).copied().unwrap_or([0.0; C])
     }
 
-    /// The cells that a ray crosses up to `t_end`.
+    /// Cells that a ray crosses up to `t_end`.
     #[must_use]
     #[inline]
     pub fn walk(&self, ray: &BoxRay) -> CellWalk<'_, C> {
@@ -180,12 +183,12 @@ impl<const C: usize> MajorantGrid<C> {
     }
 }
 
-/// Where a cell lies along one axis, in samples.
+/// Extent of a cell along one axis, in samples.
 struct Span {
-    /// The cell and a little more, held inside the lattice.
+    /// Ends of the cell, extended by [`REACH`] and clamped to the lattice.
     from: f32,
     to: f32,
-    /// Samples that are needed to interpolate in it.
+    /// First and last sample needed to interpolate in the cell.
     first: usize,
     last: usize,
 }
@@ -208,7 +211,7 @@ impl Span {
         Self { from, to, first: first as usize, last: last as usize }
     }
 
-    /// The largest value of the piecewise linear function through `values` (samples `first..=last`).
+    /// Maximum of the piecewise linear function through `values` (samples `first..=last`).
     fn largest(&self, values: impl Fn(usize) -> f32) -> f32 {
         let at = |x: f32| {
             let i = (x as usize).min(self.last);
@@ -223,7 +226,8 @@ impl Span {
         self.last - self.first + 1
     }
 
-    /// From cells of every sample along this axis to the cells of this span; `None` where all is zero.
+    /// Combines the summaries of all samples along this axis into those of this span; `None` where all are
+    /// zero.
     fn summary<const C: usize>(&self, all: &[Option<Summary<C>>], cells: usize) -> Option<Summary<C>> {
         let part = &all[self.first..=self.last];
         part.iter().any(Option::is_some).then(|| {
@@ -263,7 +267,7 @@ impl Span {
     }
 }
 
-/// What is known of some cells: the largest and smallest value, and the sum of the samples of each.
+/// Maximum, minimum and sum of the samples of each of several cells.
 struct Summary<const C: usize> {
     largest: Vec<[f32; C]>,
     smallest: Vec<[f32; C]>,
@@ -276,7 +280,7 @@ impl<const C: usize> Summary<C> {
         Self { largest: zeros.clone(), smallest: zeros.clone(), sum: zeros }
     }
 
-    /// The cells along a row of samples.
+    /// Summary of the cells along a row of samples.
     fn of_row(row: &[[f32; C]], spans: &[Span]) -> Self {
         let largest = |span: &Span| std::array::from_fn(|c| span.largest(|i| row[i][c]));
         let sum = |span: &Span| {
@@ -294,7 +298,7 @@ impl<const C: usize> Summary<C> {
         }
     }
 
-    /// Raises every largest value to another one.
+    /// Raises every maximum to at least another value.
     #[inline(always)]
     fn raise(&mut self, to: impl Fn(usize) -> [f32; C]) {
         for (i, largest) in self.largest.iter_mut().enumerate() {
@@ -303,7 +307,7 @@ impl<const C: usize> Summary<C> {
         }
     }
 
-    /// One after the other; what is missing is zero.
+    /// Concatenates summaries; missing ones are zero.
     fn joined(parts: &[Option<Self>], cells_of_each: usize) -> Self {
         let mut all = Self::empty(parts.len() * cells_of_each);
         for (i, part) in parts.iter().enumerate() {

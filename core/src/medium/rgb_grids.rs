@@ -1,8 +1,8 @@
-//! RGB grids for extinction and for albedo, each with a resolution of its own.
+//! RGB grids of extinction and albedo, each with its own resolution.
 //!
-//! Linear sRGB becomes a coefficient at a wavelength through three basis spectra that are not negative
-//! and sum to one. The map is linear, so interpolating colours and interpolating spectra agree, and the
-//! grid's largest components bound the extinction at every wavelength.
+//! Linear sRGB is converted to a coefficient at a wavelength by three basis spectra that are non-negative and
+//! sum to one. The map is linear, so interpolating colours and interpolating spectra agree, and the maxima of
+//! the grid's components bound the extinction at every wavelength.
 
 use super::density_grid::DensitySegments;
 use super::{
@@ -14,27 +14,27 @@ use crate::spectrum::{Components, Sampled, Spectrum};
 use glam::{Affine3A, Vec3};
 use std::sync::Arc;
 
-/// Where extinction comes from.
+/// Extinction field.
 #[derive(Clone, Debug)]
 pub enum ExtinctionField {
-    /// σt(λ) everywhere.
+    /// Constant σt(λ).
     Uniform(Spectrum),
-    /// density(x) · σ(λ), with the density's bounds.
+    /// density(x) · σ(λ), with the bounds of the density.
     Density(Arc<Grid<1>>, Arc<MajorantGrid<1>>, Spectrum),
-    /// scale · rgb(x), with the grid's bounds.
+    /// scale · rgb(x), with the bounds of the grid.
     Rgb(Arc<Grid<3>>, Arc<MajorantGrid<3>>, f32),
 }
 
-/// Where albedo comes from.
+/// Albedo field.
 #[derive(Clone, Debug)]
 pub enum AlbedoField {
-    /// albedo(λ) everywhere.
+    /// Constant albedo(λ).
     Uniform(Spectrum),
-    /// rgb(x), looked up through a map from the medium's unit cube to the grid's own.
+    /// rgb(x), with the transform from the medium's unit cube to the grid's.
     Rgb(Arc<Grid<3>>, Affine3A),
 }
 
-/// A medium in which extinction, albedo or both come from RGB grids.
+/// Medium with an RGB grid of extinction, albedo or both.
 #[derive(Clone, Debug)]
 pub struct RgbGrids {
     extinction: ExtinctionField,
@@ -44,7 +44,7 @@ pub struct RgbGrids {
 }
 
 impl RgbGrids {
-    /// Combines the two fields.
+    /// Creates a medium from the two fields.
     #[must_use]
     pub fn new(
         extinction: ExtinctionField,
@@ -57,12 +57,12 @@ impl RgbGrids {
 }
 
 impl RgbGrids {
-    /// How its majorant relates to its bounds.
+    /// Relation of the majorant to its bounds.
     pub(super) fn majorant(&self) -> MajorantPolicy {
         self.majorant
     }
 
-    /// See [`super::AnyMedium::raised`].
+    /// Returns the medium with bounds raised by violations; see [`super::AnyMedium::raised`].
     pub(super) fn raised(&self, by: &Violations) -> Self {
         let mut raised = self.clone();
         match &mut raised.extinction {
@@ -73,7 +73,7 @@ impl RgbGrids {
         raised
     }
 
-    /// The cells of its local majorants, if extinction comes from a grid.
+    /// Cells of the local majorants, if the extinction comes from a grid.
     #[must_use]
     pub fn majorant_cells(&self) -> Option<MajorantCells<'_>> {
         match &self.extinction {
@@ -84,15 +84,15 @@ impl RgbGrids {
     }
 }
 
-/// [`RgbGrids`] at a path's components.
+/// An [`RgbGrids`] medium at the components of a path.
 #[derive(Clone, Debug)]
 pub struct LocalRgbGrids<'a, const N: usize> {
     medium: &'a RgbGrids,
-    /// Columns: what 1 of red, green and blue is at each component.
+    /// Columns: values of unit red, green and blue at each component.
     primaries: [Sampled<N>; 3],
     extinction: Sampled<N>,
     albedo: Sampled<N>,
-    /// Majorant where a density is bounded by 1; the scale of an RGB grid.
+    /// Majorant at a density bound of 1, or the scale of an RGB grid.
     majorant: Sampled<N>,
 }
 
@@ -161,7 +161,8 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
                 ExtinctionPrior::of_mean(self.extinction * bounds.mean(bounds.cell_at(point)))
             }
             ExtinctionField::Rgb(_, bounds, _) => {
-                // Only the largest channel's mean is kept: the others are taken to be in proportion to their bounds.
+                // Only the mean of the largest channel is stored; the others are assumed to be proportional
+                // to their bounds.
                 let cell = bounds.cell_at(point);
                 let bound = bounds.bound(cell);
                 let largest = bound.iter().fold(f32::MIN_POSITIVE, |a, b| a.max(*b));
@@ -200,14 +201,14 @@ impl<const N: usize> LocalMedium<N> for LocalRgbGrids<'_, N> {
     }
 }
 
-/// Majorants along a ray, from whichever field the extinction comes.
+/// Majorant segments along a ray, for any extinction field.
 #[derive(Clone, Debug)]
 pub enum Segments<'a, const N: usize> {
-    /// The same everywhere.
+    /// A single segment of constant extinction.
     One(Option<MajorantSegment<N>>),
-    /// In proportion to the bounds of a density.
+    /// Segments proportional to the bounds of a density.
     Density(DensitySegments<'a, N>),
-    /// From the bounds of three channels.
+    /// Segments from the bounds of three channels.
     Rgb(CellWalk<'a, 3>, &'a LocalRgbGrids<'a, N>),
 }
 

@@ -30,7 +30,7 @@ pub struct PlacedGrid<const C: usize> {
     /// Maps the unit cube to the bounding box given by the file.
     pub object_from_unit: Affine3A,
     /// Whether the file defines the position of the box, as OpenVDB and `.vol` do and `.npy` does not.
-    pub says_where: bool,
+    pub has_position: bool,
     /// Repairs and choices made while reading, e.g. NaN voxels that were set to 0.
     pub notices: Vec<String>,
 }
@@ -212,7 +212,7 @@ fn build_medium(
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
-            density_box = read.says_where.then_some(placed);
+            density_box = read.has_position.then_some(placed);
             let bounds = bounds_of(&read, doc, &mut info, sigma.rgb().element_sum() / 3.0);
             ExtinctionField::Density(read.grid, bounds, sigma)
         }
@@ -222,7 +222,7 @@ fn build_medium(
             describe(&mut info, &read.grid);
             notices.extend_from_slice(&read.notices);
             placed = read.object_from_unit;
-            density_box = read.says_where.then_some(placed);
+            density_box = read.has_position.then_some(placed);
             let bounds = bounds_of(&read, doc, &mut info, doc.scale);
             ExtinctionField::Rgb(read.grid, bounds, doc.scale)
         }
@@ -243,7 +243,7 @@ fn build_medium(
             // Two files that both define a position are registered by it; otherwise both grids fill the same
             // box.
             let albedo_from_density = match density_box {
-                Some(density) if read.says_where => read.object_from_unit.inverse() * density,
+                Some(density) if read.has_position => read.object_from_unit.inverse() * density,
                 _ => Affine3A::IDENTITY,
             };
             AlbedoField::Rgb(read.grid, albedo_from_density)
@@ -311,7 +311,7 @@ fn build_emission(
         info.temperature_grid.clone_from(&read.name);
         info.memory_bytes += read.grid.bytes();
         notices.extend(read.notices);
-        if let Some(density) = density_box.filter(|_| read.says_where) {
+        if let Some(density) = density_box.filter(|_| read.has_position) {
             emission.temperature_from_medium = read.object_from_unit.inverse() * density;
         }
         emission.temperature = Some(read.grid);

@@ -105,7 +105,7 @@ impl<'a> NearestSurface<'a> {
 impl Scene {
     /// Returns the same scene with an empty record of majorant violations.
     #[must_use]
-    pub fn unwatched(&self) -> Self {
+    pub fn without_violations(&self) -> Self {
         Self { violations: Arc::new(Violations::none(self.violations.cells())), ..self.clone() }
     }
 
@@ -114,7 +114,7 @@ impl Scene {
     #[must_use]
     pub fn raised(&self) -> Option<Self> {
         (self.medium.is_progressive() && self.violations.exceeded_cells() > 0).then(|| {
-            let mut raised = self.unwatched();
+            let mut raised = self.without_violations();
             raised.medium = self.medium.raised(&self.violations);
             raised
         })

@@ -169,7 +169,7 @@ impl Active {
             pool,
             spp: 0,
             limits,
-            role: Role::Contender,
+            role: Role::View,
             target: String::new(),
             paused: false,
             steps: 0,

@@ -90,7 +90,7 @@ impl Coordinator<'_> {
     /// Runs the next pass of the view chosen by the scheduler.
     fn advance_next(&mut self) {
         let Some((id, most)) = self.scheduler.next(&self.views) else { return };
-        let contenders = self.views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
+        let contenders = self.views.values().filter(|v| v.runnable() && v.role == Role::View).count();
         let Some(view) = self.views.get_mut(&id) else { return };
         let before = view.cpu_seconds;
         // A panicking worker must not end the session.
@@ -220,7 +220,7 @@ mod tests {
         (doc.film.width, doc.film.height) = (3, 2);
         let id = ViewId(0);
         let generation =
-            mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false, role: Role::Contender });
+            mailbox.submit(id, Job { doc: Arc::new(doc.clone()), preview: false, role: Role::View });
         let mut cache = JobCache::new(Library::default());
         let scene = cache.scene(&doc).unwrap();
         let pool = cache.pool(Some(2)).unwrap();
@@ -244,7 +244,7 @@ mod tests {
         assert!(message.contains("no estimate for pixel"), "{message}");
         // No view is left to advance, and the next job starts normally.
         coordinator.advance_next();
-        let job = Job { doc: Arc::new(SceneDoc::default()), preview: false, role: Role::Contender };
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: false, role: Role::View };
         let generation = mailbox.submit(id, job.clone());
         coordinator.start(id, generation, &job);
         assert_eq!(mailbox.state(id).status, Status::Rendering);
@@ -339,7 +339,7 @@ mod tests {
     #[test]
     fn a_superseded_start_is_not_built() {
         let (mailbox, id) = (Mailbox::new(Box::new(|| {}), Library::default().progress().clone()), ViewId(0));
-        let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::Contender };
+        let job = Job { doc: Arc::new(SceneDoc::default()), preview: true, role: Role::View };
         let cache = JobCache::new(Library::default());
         let mut coordinator = Coordinator {
             mailbox: &mailbox,

@@ -245,7 +245,7 @@ mod tests {
     fn job(seed: u64) -> Job {
         let mut doc = SceneDoc::default();
         doc.render.seed = seed;
-        Job { doc: Arc::new(doc), preview: false, role: Role::Contender }
+        Job { doc: Arc::new(doc), preview: false, role: Role::View }
     }
 
     #[test]

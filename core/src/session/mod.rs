@@ -51,7 +51,7 @@ pub struct Job {
 pub enum Role {
     /// Gets the same share as every other contender, measured by the session's [`Fairness`].
     #[default]
-    Contender,
+    View,
     /// Gets about the time of one contender, and all of it once the contenders are done.
     Background,
 }

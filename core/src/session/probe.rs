@@ -54,7 +54,8 @@ impl Probe {
     #[must_use]
     pub fn aside(&self) -> Self {
         let scene = &self.scene;
-        let scene = if scene.medium.is_watched() { Arc::new(scene.unwatched()) } else { Arc::clone(scene) };
+        let scene =
+            if scene.medium.is_watched() { Arc::new(scene.without_violations()) } else { Arc::clone(scene) };
         Self { scene, ..self.clone() }
     }
 

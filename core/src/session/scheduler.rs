@@ -37,16 +37,16 @@ impl Scheduler {
     pub fn next<K: Copy + Ord>(&self, views: &BTreeMap<K, Active>) -> Option<(K, u64)> {
         let runnable = || views.iter().filter(|(_, v)| v.runnable());
         let background = runnable().find(|(_, v)| v.role == Role::Background);
-        let contender = runnable()
-            .filter(|(_, v)| v.role == Role::Contender)
+        let view_overrides = runnable()
+            .filter(|(_, v)| v.role == Role::View)
             .min_by(|(_, a), (_, b)| had(a, self.fairness).total_cmp(&had(b, self.fairness)));
-        match (contender, background) {
+        match (view_overrides, background) {
             (None, None) => None,
             (None, Some((id, _))) => Some((*id, u64::MAX)),
             (Some(_), Some((id, _))) if self.background_lag > 0.0 => Some((*id, u64::MAX)),
             (Some((id, view)), _) => {
                 let ahead = runnable()
-                    .filter(|(_, v)| v.role == Role::Contender)
+                    .filter(|(_, v)| v.role == Role::View)
                     .map(|(_, v)| had(v, self.fairness))
                     .fold(0.0, f64::max);
                 Some((*id, self.samples_to(view, ahead)))
@@ -70,7 +70,7 @@ impl Scheduler {
     /// Records the cost of a pass; `contenders` is the number that can run.
     pub fn note(&mut self, role: Role, cpu_seconds: f64, contenders: usize) {
         match role {
-            Role::Contender => self.background_lag += cpu_seconds / contenders.max(1) as f64,
+            Role::View => self.background_lag += cpu_seconds / contenders.max(1) as f64,
             Role::Background => self.background_lag -= cpu_seconds,
         }
         self.background_lag = self.background_lag.clamp(-MAX_LAG_SECONDS, MAX_LAG_SECONDS);
@@ -106,7 +106,7 @@ mod tests {
     fn run(views: &mut BTreeMap<usize, Active>, scheduler: &mut Scheduler, passes: usize, fitting: u64) {
         for _ in 0..passes {
             let (id, most) = scheduler.next(views).unwrap();
-            let contenders = views.values().filter(|v| v.runnable() && v.role == Role::Contender).count();
+            let contenders = views.values().filter(|v| v.runnable() && v.role == Role::View).count();
             let view = views.get_mut(&id).unwrap();
             let count = fitting.min(most);
             let (seconds, lookups) = COSTS[id % COSTS.len()];
@@ -118,14 +118,14 @@ mod tests {
     }
 
     fn spread(views: &BTreeMap<usize, Active>, fairness: Fairness) -> f64 {
-        let all = || views.values().filter(|v| v.role == Role::Contender).map(|v| had(v, fairness));
+        let all = || views.values().filter(|v| v.role == Role::View).map(|v| had(v, fairness));
         (all().fold(0.0, f64::max) - all().fold(f64::INFINITY, f64::min)) / all().fold(0.0, f64::max)
     }
 
     #[test]
     fn contenders_keep_level_in_what_the_comparison_is_fair_in() {
         for fairness in [Fairness::Time, Fairness::Samples, Fairness::Lookups] {
-            let mut views: BTreeMap<usize, Active> = (0..3).map(|i| (i, view(Role::Contender))).collect();
+            let mut views: BTreeMap<usize, Active> = (0..3).map(|i| (i, view(Role::View))).collect();
             let mut scheduler = Scheduler { fairness, ..Scheduler::default() };
             run(&mut views, &mut scheduler, 600, 8);
             assert!(spread(&views, fairness) < 0.05, "{fairness:?}: {}", spread(&views, fairness));
@@ -137,11 +137,11 @@ mod tests {
 
     #[test]
     fn a_new_view_catches_up_before_the_others_continue() {
-        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
+        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::View))).collect();
         let mut scheduler = Scheduler { fairness: Fairness::Samples, ..Scheduler::default() };
         run(&mut views, &mut scheduler, 100, 8);
         let before: u64 = views.values().map(|v| v.spp).max().unwrap();
-        views.insert(2, view(Role::Contender));
+        views.insert(2, view(Role::View));
         while views[&2].spp < before {
             run(&mut views, &mut scheduler, 1, 8);
         }
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn the_background_gets_one_contenders_share_and_all_of_it_once_they_are_done() {
-        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::Contender))).collect();
+        let mut views: BTreeMap<usize, Active> = (0..2).map(|i| (i, view(Role::View))).collect();
         views.insert(2, view(Role::Background));
         let mut scheduler = Scheduler::default();
         run(&mut views, &mut scheduler, 3000, 8);

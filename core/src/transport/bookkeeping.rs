@@ -40,7 +40,7 @@ pub trait WalkWeights<const N: usize>: Copy {
     /// Updates the weights for leaving a vertex in a sampled direction: f is multiplied by the phase function
     /// or cosine lobe, p_uni by the density, and p_nee by neither, as next-event estimation would have
     /// sampled a light here. The light's density is multiplied into p_nee in [`Weights::combined`].
-    fn leave(&mut self, outgoing: &DirectionSample);
+    fn choose_direction(&mut self, outgoing: &DirectionSample);
 
     /// Value of a path that ends at a collision where the medium emits. Every tentative collision is such an
     /// end, so its density is p_uni,i μ̄_i, and with the balance heuristic the value is
@@ -55,10 +55,10 @@ pub trait WalkWeights<const N: usize>: Copy {
     fn throughput(&self) -> f32;
 
     /// Returns the weights in their stored form, for an observer.
-    fn kept(&self) -> WeightRecord;
+    fn weight_record(&self) -> WeightRecord;
 
     /// Whether the path can no longer contribute.
-    fn is_dark(&self) -> bool;
+    fn is_zero(&self) -> bool;
 
     /// Value of a path made by unidirectional sampling only; with the balance heuristic f_j / mean p_uni.
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R;

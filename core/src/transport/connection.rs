@@ -64,13 +64,13 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
         let mut weights = path.connect(&aim.outgoing, aim.density);
-        trace.tell(move || aim.note());
+        trace.notify(move || aim.note());
         let sets_out = weights;
-        trace.tell(move || Note::Weights(sets_out.kept()));
+        trace.notify(move || Note::Weights(sets_out.weight_record()));
         weights.attenuate(self.estimate_transmittance(&aim.ray, aim.distance, trace));
         let arrives = weights;
-        trace.tell(move || Note::Weights(arrives.kept()));
-        trace.tell(move || Note::Connected { arrives: true });
+        trace.notify(move || Note::Weights(arrives.weight_record()));
+        trace.notify(move || Note::Connected { arrives: true });
         Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
     }
 
@@ -97,10 +97,10 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<W> {
         let told = *aim;
-        trace.tell(move || told.note());
+        trace.notify(move || told.note());
         let weights = self.pass_by_ratio(&aim.ray, aim.distance, weights, trace);
         let arrives = weights.is_some();
-        trace.tell(move || Note::Connected { arrives });
+        trace.notify(move || Note::Connected { arrives });
         weights
     }
 
@@ -117,8 +117,8 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let mut walk = self.walk_to_light(ray, t_max);
         while let Some(collision) = walk.next_collision(trace, &mut weights) {
             weights.null_by_ratio(&collision);
-            if weights.is_dark() {
-                trace.tell(move || Note::Weights(weights.kept()));
+            if weights.is_zero() {
+                trace.notify(move || Note::Weights(weights.weight_record()));
                 return None;
             }
         }
@@ -227,7 +227,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let profile = InMedium::new(&self.medium, inside);
         let estimate = self.settings.transmittance.estimate(&profile, &mut trace.connection);
         trace.lookups += u64::from(estimate.lookups);
-        trace.tell(move || Note::Transmittance { estimate: estimate.weight.lanes() });
+        trace.notify(move || Note::Transmittance { estimate: estimate.weight.lanes() });
         estimate.weight
     }
 }

@@ -23,7 +23,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     pub fn sample_distance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Flight<N> {
         let flight = self.fly(ray, t_max, trace);
         let Flight { scattered_at, weight } = flight;
-        trace.tell(move || Note::Flight { scattered_at, weight: weight.lanes() });
+        trace.notify(move || Note::Flight { scattered_at, weight: weight.lanes() });
         flight
     }
 
@@ -63,9 +63,9 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     /// [`Self::transmittance`] of a connection.
     pub fn transmittance_to(&self, aim: &Aim<C::Radiance>, trace: &mut Trace<'_>) -> Sampled<N> {
         let told = *aim;
-        trace.tell(move || told.note());
+        trace.notify(move || told.note());
         let transmittance = self.transmittance(&aim.ray, aim.distance, trace);
-        trace.tell(move || Note::Connected { arrives: !transmittance.is_zero() });
+        trace.notify(move || Note::Connected { arrives: !transmittance.is_zero() });
         transmittance
     }
 
@@ -76,7 +76,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             let inside = BoxRay::enter(ray, &self.scene.medium_from_world, t_max);
             let exact = |(_, inside): (f32, BoxRay)| extinction.map(|e| exp(-e * inside.t_end));
             let estimate = inside.map_or(Sampled::ONE, exact);
-            trace.tell(move || Note::Transmittance { estimate: estimate.lanes() });
+            trace.notify(move || Note::Transmittance { estimate: estimate.lanes() });
             return estimate;
         }
         self.estimate_transmittance(ray, t_max, trace)

@@ -173,7 +173,7 @@ impl<const N: usize> Collision<N> {
         let (c, u) = (&self.coefficients, trace.sampler.event());
         let real = u * c.majorant.hero() < c.extinction().hero();
         let event = if real { Event::Scattering } else { Event::Null };
-        trace.tell(move || Note::Drawn { event, u });
+        trace.notify(move || Note::Drawn { event, u });
         event
     }
 
@@ -184,7 +184,7 @@ impl<const N: usize> Collision<N> {
     }
 
     /// As [`Self::draw_event`], with a random number of the side stream: for a walk beside the path's own.
-    pub fn draw_event_beside(&self, trace: &mut Trace<'_>) -> Event {
+    pub fn draw_event_side_stream(&self, trace: &mut Trace<'_>) -> Event {
         let u = trace.connection.next_1d();
         self.draw_event_by(u, trace)
     }
@@ -192,7 +192,7 @@ impl<const N: usize> Collision<N> {
     #[inline(always)]
     fn draw_event_by(&self, u: f32, trace: &mut Trace<'_>) -> Event {
         let event = self.event_at(u * self.tentative.hero());
-        trace.tell(move || Note::Drawn { event, u });
+        trace.notify(move || Note::Drawn { event, u });
         event
     }
 

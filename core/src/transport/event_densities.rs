@@ -69,7 +69,7 @@ impl EventDensities {
         let number = trace.sampler.event();
         let event = self.event_at(number * self.total());
         let told = *self;
-        trace.tell(move || {
+        trace.notify(move || {
             let density = match event {
                 Event::Null => told.null,
                 Event::Scattering => told.scattering,

@@ -100,7 +100,7 @@ pub enum Note {
         /// Majorant optical depth since the last note, per component.
         passed: Lanes,
         /// Path weights at the exit.
-        kept: WeightRecord,
+        weight_record: WeightRecord,
     },
     /// Path weights after the last event of the current walk or connection, where the note of the event does
     /// not have them.
@@ -145,7 +145,7 @@ pub enum Note {
         q: f32,
     },
     /// The path leaves its vertex in a new direction.
-    Leave {
+    Direction {
         /// Ray from the vertex.
         ray: Ray,
         /// Random numbers.
@@ -189,7 +189,7 @@ pub enum Note {
     /// The equiangular vertex and its connection have ended.
     EquiangularVertexEnds,
     /// A contribution is added to the estimate.
-    Credit {
+    Contribution {
         /// Technique that made the path.
         technique: Technique,
         /// Emitted radiance; on grey paths in linear sRGB of the film.
@@ -237,9 +237,9 @@ impl<'a> PathContext<'a> {
     /// Reports a step to the observer, if there is one. Move the captured values into the closure: borrowed
     /// values have to be kept in memory, even without an observer.
     #[inline(always)]
-    pub(super) fn tell(&mut self, note: impl FnOnce() -> Note) {
+    pub(super) fn notify(&mut self, note: impl FnOnce() -> Note) {
         if let Some(observer) = &mut self.observer {
-            told(*observer, note);
+            notify_cold(*observer, note);
         }
     }
 }
@@ -247,7 +247,7 @@ impl<'a> PathContext<'a> {
 /// Kept out of line, so that paths without an observer do not pay for it.
 #[cold]
 #[inline(never)]
-fn told(observer: &mut dyn Observer, note: impl FnOnce() -> Note) {
+fn notify_cold(observer: &mut dyn Observer, note: impl FnOnce() -> Note) {
     observer.note(&note());
 }
 

@@ -77,7 +77,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
         weights: &mut impl WalkWeights<N>,
     ) -> Option<Collision<N>> {
         let before = *weights;
-        trace.tell(move || Note::Weights(before.kept()));
+        trace.notify(move || Note::Weights(before.weight_record()));
         let way = self.way.as_mut()?;
         if trace.must_stop() {
             return None;
@@ -107,8 +107,8 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                     trace.exceeded += 1;
                     self.violations.note(inside, collision.coefficients.excess);
                 }
-                let kept = *weights;
-                trace.tell(move || Note::Collision(collision.found(passed), kept.kept()));
+                let weight_record = *weights;
+                trace.notify(move || Note::Collision(collision.found(passed), weight_record.weight_record()));
                 return Some(collision);
             }
             optical_depth -= in_segment;
@@ -119,8 +119,11 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             way.segment = next;
         }
         weights.pass(passed);
-        let kept = *weights;
-        trace.tell(move || Note::Exit { passed: passed.lanes(), kept: kept.kept() });
+        let weight_record = *weights;
+        trace.notify(move || Note::Exit {
+            passed: passed.lanes(),
+            weight_record: weight_record.weight_record(),
+        });
         self.way = None;
         None
     }

@@ -86,7 +86,7 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
     }
 
     #[inline]
-    fn leave(&mut self, outgoing: &DirectionSample) {
+    fn choose_direction(&mut self, outgoing: &DirectionSample) {
         let drawn = 1.0 / outgoing.density;
         if outgoing.value != outgoing.density {
             self.contribution *= outgoing.value * drawn;
@@ -111,7 +111,7 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
         now.contribution.abs().max_component() / now.uni.mean()
     }
 
-    fn kept(&self) -> WeightRecord {
+    fn weight_record(&self) -> WeightRecord {
         let now = self.settled();
         WeightRecord {
             names: ["f/P", "p_uni/P", "p_nee/P"],
@@ -120,7 +120,7 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
     }
 
     #[inline]
-    fn is_dark(&self) -> bool {
+    fn is_zero(&self) -> bool {
         self.contribution.is_zero()
     }
 
@@ -244,7 +244,3 @@ impl<const N: usize> PathWeights<N> {
         hero
     }
 }
-
-#[cfg(test)]
-#[path = "weights_tests.rs"]
-mod tests;

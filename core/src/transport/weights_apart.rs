@@ -131,7 +131,7 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
         self.contributes(albedo);
     }
 
-    fn leave(&mut self, outgoing: &DirectionSample) {
+    fn choose_direction(&mut self, outgoing: &DirectionSample) {
         self.nee = self.uni;
         multiply(&mut self.f, Sampled::splat(outgoing.value));
         multiply(&mut self.uni, Sampled::splat(outgoing.density));
@@ -152,12 +152,12 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
         self.over(mean(self.uni), 1.0).abs().max_component()
     }
 
-    fn kept(&self) -> WeightRecord {
+    fn weight_record(&self) -> WeightRecord {
         let [f, uni, nee] = [self.f, self.uni, self.nee].map(|of| Sampled(of.map(T::single)).lanes());
         WeightRecord { names: ["f", "p_uni", "p_nee"], values: [f, uni, nee] }
     }
 
-    fn is_dark(&self) -> bool {
+    fn is_zero(&self) -> bool {
         self.dark
     }
 

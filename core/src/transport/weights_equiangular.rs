@@ -42,7 +42,7 @@ pub struct LightDensities {
     pub nee: f32,
     /// Density of the same direction without the choice of the light at the last vertex, times the density of
     /// the last vertex along its ray and the probability of the light for which it was drawn. Where the
-    /// path's density P has the latter two factors already ([`EquiangularWeights::connect_by_angle`]), they
+    /// path's density P has the latter two factors already ([`EquiangularWeights::connect_equiangular`]), they
     /// are left out.
     pub eq: f32,
 }
@@ -82,7 +82,7 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
         self.eq = Sampled::ZERO;
     }
 
-    fn leave(&mut self, outgoing: &DirectionSample) {
+    fn choose_direction(&mut self, outgoing: &DirectionSample) {
         let drawn = 1.0 / outgoing.density;
         self.contribution *= outgoing.value * drawn;
         self.nee = self.uni * drawn;
@@ -104,14 +104,14 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
         self.contribution.abs().max_component() / self.uni.mean()
     }
 
-    fn kept(&self) -> WeightRecord {
+    fn weight_record(&self) -> WeightRecord {
         WeightRecord {
             names: ["f/P", "p_uni/P", "p_nee/P"],
             values: [self.contribution.lanes(), self.uni.lanes(), self.nee.lanes()],
         }
     }
 
-    fn is_dark(&self) -> bool {
+    fn is_zero(&self) -> bool {
         self.contribution.is_zero()
     }
 
@@ -122,8 +122,10 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
 
 impl<const N: usize> EquiangularWeights<N> {
     fn scale(&mut self, by: Sampled<N>) {
-        for kept in [&mut self.contribution, &mut self.uni, &mut self.nee, &mut self.eq, &mut self.ahead] {
-            *kept *= by;
+        for weight_record in
+            [&mut self.contribution, &mut self.uni, &mut self.nee, &mut self.eq, &mut self.ahead]
+        {
+            *weight_record *= by;
         }
     }
 
@@ -139,7 +141,7 @@ impl<const N: usize> EquiangularWeights<N> {
 
     /// Updates the weights for a vertex drawn by equiangular sampling with this density, at the end of a
     /// stretch whose collisions were taken as null.
-    pub fn scatter_by_angle(&mut self, c: &Collision<N>, density: f32) {
+    pub fn scatter_equiangular(&mut self, c: &Collision<N>, density: f32) {
         let scale = 1.0 / density;
         self.contribution *= c.coefficients.scattering * scale;
         self.uni *= c.scattering_density * scale;
@@ -162,7 +164,7 @@ impl<const N: usize> EquiangularWeights<N> {
     /// Weights of a connection from a vertex drawn by equiangular sampling, whose density P already includes;
     /// P is p_eq of the hero.
     #[must_use]
-    pub fn connect_by_angle(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
+    pub fn connect_equiangular(&self, outgoing: &DirectionSample, light: LightDensities) -> Self {
         let drawn = 1.0 / light.eq;
         Self {
             contribution: self.contribution * (outgoing.value * drawn),
@@ -189,7 +191,7 @@ impl<const N: usize> EquiangularWeights<N> {
 
     /// Value of a connection from a vertex drawn by equiangular sampling.
     #[must_use]
-    pub fn connected_by_angle<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
+    pub fn connected_equiangular<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {
         radiance * among_all(self.contribution, [self.eq, self.uni, self.nee], heuristics)
     }
 }

@@ -86,8 +86,8 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
         self.right.reflect(albedo);
     }
 
-    fn leave(&mut self, outgoing: &DirectionSample) {
-        self.right.leave(outgoing);
+    fn choose_direction(&mut self, outgoing: &DirectionSample) {
+        self.right.choose_direction(outgoing);
         self.right.nee *= self.beyond(outgoing);
         self.nulls = 0;
     }
@@ -105,12 +105,12 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
         self.right.throughput()
     }
 
-    fn kept(&self) -> WeightRecord {
-        self.right.kept()
+    fn weight_record(&self) -> WeightRecord {
+        self.right.weight_record()
     }
 
-    fn is_dark(&self) -> bool {
-        self.right.is_dark()
+    fn is_zero(&self) -> bool {
+        self.right.is_zero()
     }
 
     fn unidirectional<R: Radiance<N>>(&self, radiance: R, heuristics: Heuristics) -> R {

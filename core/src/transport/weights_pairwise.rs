@@ -70,7 +70,7 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
         multiply(&mut self.uni, Sampled::ONE, albedo);
     }
 
-    fn leave(&mut self, outgoing: &DirectionSample) {
+    fn choose_direction(&mut self, outgoing: &DirectionSample) {
         self.nee = self.uni;
         multiply(&mut self.nee, Sampled::ONE, Sampled::splat(outgoing.value));
         multiply(&mut self.uni, Sampled::splat(outgoing.density), Sampled::splat(outgoing.value));
@@ -92,13 +92,13 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
     }
 
     /// The quotients with the hero as i or as j; the other pairs are left out.
-    fn kept(&self) -> WeightRecord {
+    fn weight_record(&self) -> WeightRecord {
         let of_hero = |quotients: [Sampled<N>; N]| Sampled(quotients.map(|row| row.hero())).lanes();
         let (uni, nee) = (of_hero(self.uni), of_hero(self.nee));
         WeightRecord { names: ["p_uni/f1", "p_nee/f1", "p_uni1/f"], values: [uni, nee, self.uni[0].lanes()] }
     }
 
-    fn is_dark(&self) -> bool {
+    fn is_zero(&self) -> bool {
         self.uni[0].0.iter().all(|quotient| quotient.is_infinite())
     }
 

@@ -102,8 +102,8 @@ impl<'a> Trace<'a> {
 
     /// Reports a step to the observer, if there is one.
     #[inline(always)]
-    pub fn tell(&mut self, note: impl FnOnce() -> Note) {
-        self.context.tell(note);
+    pub fn notify(&mut self, note: impl FnOnce() -> Note) {
+        self.context.notify(note);
     }
 
     /// Counts a step of the path and returns whether the path has been cancelled; once true, it remains true.
@@ -174,7 +174,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
         let components = self.components;
-        trace.tell(move || Note::Credit {
+        trace.notify(move || Note::Contribution {
             technique,
             emitted: emitted.lanes(),
             other_density,
@@ -227,7 +227,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         // the magnitude of the ray's origin and of the point.
         let lift = 1e-6 * (point.abs().max_element() + ray.origin.abs().max_element());
         let albedo = self.components.evaluate(albedo);
-        trace.tell(move || Note::Surface { point, albedo: albedo.lanes() });
+        trace.notify(move || Note::Surface { point, albedo: albedo.lanes() });
         Some((Vertex::Surface { point: point + normal * lift, normal }, albedo))
     }
 
@@ -265,7 +265,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         trace: &mut Trace<'_>,
     ) -> Ray {
         let outgoing = self.sample_outgoing(vertex, trace);
-        weights.leave(&outgoing);
+        weights.choose_direction(&outgoing);
         Ray { origin: vertex.point(), direction: outgoing.direction }
     }
 
@@ -276,16 +276,16 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let outgoing = self.directions().draw(vertex, u);
         trace.sampler.start_vertex();
         let ray = Ray { origin: vertex.point(), direction: outgoing.direction };
-        trace.tell(move || Note::Leave { ray, u, value: outgoing.value, density: outgoing.density });
+        trace.notify(move || Note::Direction { ray, u, value: outgoing.value, density: outgoing.density });
         outgoing
     }
 
     /// Whether a path continues beyond its vertex number `vertices`: it is within the depth limit, can still
     /// contribute, and has not been cancelled.
     pub fn within_depth(&self, vertices: u32, weights: &impl WalkWeights<N>, trace: &mut Trace<'_>) -> bool {
-        let kept = *weights;
-        trace.tell(move || Note::Vertex(kept.kept()));
-        vertices < self.settings.max_depth && !weights.is_dark() && !trace.must_stop()
+        let weight_record = *weights;
+        trace.notify(move || Note::Vertex(weight_record.weight_record()));
+        vertices < self.settings.max_depth && !weights.is_zero() && !trace.must_stop()
     }
 
     /// Russian roulette: the path survives with a probability equal to its throughput, clamped to 0.05 to 1,
@@ -302,13 +302,13 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         let q = weights.throughput().clamp(0.05, 1.0);
         if q < 1.0 {
             let u = trace.sampler.roulette();
-            trace.tell(move || Note::Roulette { u, q });
+            trace.notify(move || Note::Roulette { u, q });
             if u >= q {
                 return false;
             }
             weights.survive(q);
-            let kept = *weights;
-            trace.tell(move || Note::Weights(kept.kept()));
+            let weight_record = *weights;
+            trace.notify(move || Note::Weights(weight_record.weight_record()));
         }
         true
     }

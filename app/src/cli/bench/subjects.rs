@@ -19,7 +19,7 @@ pub(super) fn load(arguments: &Arguments, estimators: &[&'static Entry]) -> Resu
         names = embedded::SCENES.iter().map(|scene| scene.name.to_owned()).collect();
     }
     if arguments.reference.is_some() && names.len() != 1 {
-        let message = "--reference applies to a single scene: name that scene, or omit --reference";
+        let message = "--reference applies to one scene: name that scene, or omit --reference";
         return Err(Failure::Message(message.into()));
     }
     names.iter().map(|name| subject(name, arguments, estimators)).collect()
@@ -48,8 +48,8 @@ fn subject(name: &str, arguments: &Arguments, estimators: &[&'static Entry]) -> 
                 .unwrap_or((REFERENCE_TIMES * arguments.seconds).max(REFERENCE_LEAST)),
         },
     };
-    let entrants = estimators.iter().map(|entry| Candidate::of(entry, &doc)).collect();
-    Ok(Subject { name: title(name), doc, library: source.resources, entrants, reference })
+    let candidates = estimators.iter().map(|entry| Candidate::of(entry, &doc)).collect();
+    Ok(Subject { name: title(name), doc, library: source.resources, candidates, reference })
 }
 
 /// Title of a scene: the stem of its file name, or the folder's name for a file called scene.toml.

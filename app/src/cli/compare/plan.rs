@@ -28,12 +28,12 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
     let limits = Limits { spp: arguments.spp, cpu_seconds: arguments.seconds, ..Limits::default() };
     options::replace_limits(&mut doc.render, limits);
     if arguments.seed.is_none() {
-        keep_off(&mut doc, arguments.reference.as_deref().and_then(compare::seed_of));
+        avoid_seed(&mut doc, arguments.reference.as_deref().and_then(compare::seed_of));
     }
     if !arguments.estimators.is_empty() {
-        line_up(&mut doc, arguments.estimators.iter().map(String::as_str));
+        set_views(&mut doc, arguments.estimators.iter().map(String::as_str));
     } else if doc.compare.views.is_empty() {
-        line_up(&mut doc, REGISTRY.iter().map(|e| e.id));
+        set_views(&mut doc, REGISTRY.iter().map(|e| e.id));
     } else if arguments.seed.is_some() {
         let first = doc.render.seed;
         for (place, view) in (1u64..).zip(&mut doc.compare.views) {
@@ -73,7 +73,7 @@ pub(super) fn plan(scene: &SceneDoc, arguments: &Arguments) -> Result<SceneDoc, 
 }
 
 /// Moves the first seed so that no view has the seed of the reference.
-fn keep_off(doc: &mut SceneDoc, reference: Option<u64>) {
+fn avoid_seed(doc: &mut SceneDoc, reference: Option<u64>) {
     let Some(taken) = reference else { return };
     if (doc.render.seed..=doc.render.seed.saturating_add(MAX_VIEWS as u64)).contains(&taken) {
         doc.render.seed = taken.checked_add(1).filter(|seed| i64::try_from(*seed).is_ok()).unwrap_or(0);
@@ -81,7 +81,7 @@ fn keep_off(doc: &mut SceneDoc, reference: Option<u64>) {
 }
 
 /// Makes these estimators the views, with the other settings of the scene and different seeds.
-fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>) {
+fn set_views<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>) {
     doc.compare.views.clear();
     doc.compare.baseline = 0;
     if matches!(doc.compare.reference, ReferenceDoc::View { .. }) {
@@ -92,7 +92,7 @@ fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>
     }
     let first = doc.render.seed;
     for (place, id) in (1u64..).zip(estimators) {
-        let Some(mut view) = doc.contender(0) else { return };
+        let Some(mut view) = doc.view_overrides(0) else { return };
         view.estimator.id = id.to_owned();
         let next = first.checked_add(place).filter(|seed| i64::try_from(*seed).is_ok());
         view.seed = next.unwrap_or_else(|| doc.free_seed());
@@ -103,7 +103,7 @@ fn line_up<'a>(doc: &mut SceneDoc, mut estimators: impl Iterator<Item = &'a str>
 /// Finds the view with this label, or the first one with this estimator.
 fn baseline(doc: &SceneDoc, wanted: &str) -> Result<usize, Failure> {
     let ids: Vec<String> =
-        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| c.estimator.id).collect();
+        (0..doc.view_count()).filter_map(|v| doc.view_overrides(v)).map(|c| c.estimator.id).collect();
     let by_label = (0..ids.len()).find(|view| label(*view) == wanted);
     by_label.or_else(|| ids.iter().position(|id| id == wanted)).ok_or_else(|| {
         Failure::Message(format!(
@@ -140,37 +140,42 @@ mod tests {
     use super::*;
 
     fn ids(doc: &SceneDoc) -> Vec<(String, u64)> {
-        (0..doc.view_count()).filter_map(|v| doc.contender(v)).map(|c| (c.estimator.id, c.seed)).collect()
+        (0..doc.view_count())
+            .filter_map(|v| doc.view_overrides(v))
+            .map(|c| (c.estimator.id, c.seed))
+            .collect()
     }
 
     #[test]
     fn every_estimator_gets_a_view_with_its_own_seed() {
         let mut doc = SceneDoc::default();
         doc.render.seed = 7;
-        line_up(&mut doc, ["nee", "nee", "independent"].into_iter());
+        set_views(&mut doc, ["nee", "nee", "independent"].into_iter());
         assert_eq!(ids(&doc), [("nee".into(), 7), ("nee".into(), 8), ("independent".into(), 9)]);
         doc.render.seed = i64::MAX as u64;
-        line_up(&mut doc, ["nee", "nee"].into_iter());
+        set_views(&mut doc, ["nee", "nee"].into_iter());
         assert_eq!(ids(&doc)[1].1, 0);
     }
 
     #[test]
     fn views_do_not_share_the_references_random_numbers() {
         let mut doc = SceneDoc::default();
-        keep_off(&mut doc, Some(2));
+        avoid_seed(&mut doc, Some(2));
         assert_eq!(doc.render.seed, 3);
-        keep_off(&mut doc, Some(2));
+        avoid_seed(&mut doc, Some(2));
         assert_eq!(doc.render.seed, 3, "already a different seed");
-        keep_off(&mut doc, None);
+        avoid_seed(&mut doc, None);
         assert_eq!(doc.render.seed, 3);
     }
 
     #[test]
     fn a_baseline_is_named_by_estimator_or_label() {
         let mut doc = SceneDoc::default();
-        line_up(&mut doc, ["nee", "independent"].into_iter());
+        set_views(&mut doc, ["nee", "independent"].into_iter());
         assert_eq!([baseline(&doc, "independent").ok(), baseline(&doc, "A").ok()], [Some(1), Some(0)]);
-        let Err(Failure::Message(message)) = baseline(&doc, "magic") else { panic!("the baseline should have been rejected") };
+        let Err(Failure::Message(message)) = baseline(&doc, "magic") else {
+            panic!("the baseline should have been rejected")
+        };
         assert!(message.contains("magic") && message.contains("nee, independent"), "{message}");
     }
 }

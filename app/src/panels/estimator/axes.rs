@@ -181,7 +181,7 @@ fn combination_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
                 segmented(ui, "Techniques", &mut doc.heuristics.techniques, &[BALANCE, POWER, MAXIMUM]);
             });
         });
-        open_ui(ui, doc, Axis::Bookkeeping, books_ui);
+        open_ui(ui, doc, Axis::Bookkeeping, path_weights_ui);
         open_ui(ui, doc, Axis::Tracking, |ui, doc| {
             row_of(ui, key("estimator.tracking"), |ui, _| {
                 let options = [
@@ -234,7 +234,7 @@ fn sampling_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     }
 }
 
-fn books_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
+fn path_weights_ui(ui: &mut Ui, doc: &mut EstimatorDoc) {
     row_of(ui, key("estimator.bookkeeping"), |ui, _| {
         let options = [
             (Bookkeeping::Rescaled, "p/P", "Densities relative to the density of the path: no overflow"),

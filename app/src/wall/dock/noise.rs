@@ -1,5 +1,5 @@
-//! Analysis of the noise of the selected view: shares of the variance, samples with the largest contributions, and
-//! suggested changes that can be rendered in another view.
+//! Analysis of the noise of the selected view: shares of the variance, samples with the largest contributions,
+//! and suggested changes that can be rendered in another view.
 
 use super::{Cx, Tab, empty};
 use crate::model::Command;
@@ -18,7 +18,7 @@ pub struct Noise;
 
 /// Number of contributions listed per decomposition.
 const LISTED: usize = 6;
-/// Fractions of the samples, those with the largest contributions first, whose share of the variance is shown.
+/// Fractions of the samples, largest contributions first, whose share of the variance is shown.
 const FRACTIONS: [(&str, f64); 3] = [("1 in 1000", 1e-3), ("1 in 100", 1e-2), ("1 in 10", 1e-1)];
 
 impl Tab for Noise {
@@ -95,8 +95,8 @@ impl Tab for Noise {
     }
 }
 
-/// Statistics of the view's noise, restricted to the box if there is one. They are recomputed if their inputs have
-/// changed and `wake` is given.
+/// Statistics of the view's noise, restricted to the box if there is one. They are recomputed if their inputs
+/// have changed and `wake` is given.
 fn evidence(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<Evidence>> {
     let slot = cx.wall.selected_slot()?;
     let probe = slot.probe()?.clone();
@@ -160,7 +160,7 @@ fn share_ui(ui: &mut Ui, name: &str, share: f64) {
     });
 }
 
-/// Draws the share of the variance due to the samples with the largest contributions, and a list of these samples.
+/// Draws the share of the variance due to the largest samples, and a list of these samples.
 fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
     let palette = Palette::get(ui);
     ui.label(RichText::new("share of the largest samples").small().color(palette.strong));
@@ -209,7 +209,7 @@ fn advice_ui(ui: &mut Ui, cx: &mut Cx<'_>, doc: &SceneDoc, evidence: &Evidence) 
                 egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Try advice {}", i + 1))
             });
             if button.on_hover_text("Adds a view with the change; the ranking shows its speed-up").clicked() {
-                cx.commands.push(Command::TryBeside(Box::new(advice.doc.clone())));
+                cx.commands.push(Command::AddViewWith(Box::new(advice.doc.clone())));
             }
         });
     }

@@ -141,7 +141,7 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     });
 }
 
-/// Returns the contributions and whether they are current: while new ones are traced, the previous are returned.
+/// Returns the contributions and whether they are current; the previous ones while new ones are traced.
 fn parts(ui: &Ui, cx: &mut Cx<'_>) -> Option<(Arc<Strategies>, bool)> {
     let slot = cx.wall.selected_slot()?;
     let state = &mut cx.inspector.parts;

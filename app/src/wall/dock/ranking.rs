@@ -1,4 +1,4 @@
-//! Which view wins, by how much, and how sure that is.
+//! Ranking of the views: costs, errors, variances, efficiencies with confidence intervals, and verdicts.
 
 use super::{Cx, Tab, empty};
 use crate::model::Command;
@@ -9,44 +9,48 @@ use crate::wall::caption::{against, chip, digits, error_tip, not_measured, verdi
 use egui::{Align, Color32, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 use majorant_core::compare::report::words;
-use majorant_core::compare::{Against, Standing, Verdict};
+use majorant_core::compare::{ComparedWith, Standing, Verdict};
 use majorant_core::measure::{Measure, Measured};
 use majorant_core::scene::ReferenceDoc;
 use std::fmt::Write;
 
-/// See the [module](self).
+/// Tab of the ranking.
 pub struct Ranking;
 
-/// Below this width names are shortened.
+/// Width, in points, below which the column of names is narrower.
 const NARROW: f32 = 760.0;
-/// Width of the columns of errors, which a table without a reference spares.
+/// Width of the columns of errors, which are omitted without a reference.
 const ERRORS: f32 = 200.0;
 
-/// A column's heading, what its numbers are, and the width of the table from which it is there.
+/// Heading of a column, its tooltip, and the minimum width of the table at which it is shown.
 type Heading = (&'static str, &'static str, f32);
 
-/// The column that is headed by the measure of error.
+/// Placeholder for the heading of the error column, replaced by the name of the measure.
 const ERROR: &str = "error";
-/// The column of the reference's part in it.
+/// Heading of the column with the share of the reference's noise in the error.
 const SHARE: &str = "ref. ±";
 
-/// Columns of numbers.
+/// Numeric columns.
 const HEADINGS: &[Heading] = &[
     ("spp", "Samples per pixel", 0.0),
-    ("CPU s", "Seconds of path tracing, all workers together; films and statistics are not billed", 900.0),
+    (
+        "CPU s",
+        "CPU seconds of path tracing, summed over all threads; film merging and statistics are not charged",
+        900.0,
+    ),
     ("look-ups", "Evaluations of the medium per path", 960.0),
     (ERROR, "", 0.0),
     (
         SHARE,
-        "What the reference's own noise adds to an error: it is taken off, and in full part of the error's ±",
+        "Contribution of the reference's noise to the error: the error is corrected for it, and its ± includes it in full",
         1020.0,
     ),
-    ("variance", "Variance of a pixel's mean, over pixels and channels", 0.0),
-    ("colour", "The part of the variance that is colour noise: perpendicular to grey", 840.0),
+    ("variance", "Variance of the pixel mean, averaged over pixels and channels", 0.0),
+    ("colour", "Share of the variance that is colour noise, perpendicular to grey", 840.0),
     ("efficiency", "1 / (variance · CPU seconds)", 780.0),
     (
         "speed-up",
-        "Efficiency over that of the baseline, with its 95 % interval: from the variance's own error and the scatter of the cost",
+        "Efficiency relative to the baseline, with its 95 % interval from the error of the variance and the scatter of the cost",
         0.0,
     ),
 ];
@@ -94,9 +98,9 @@ impl Tab for Ranking {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let analysis = cx.wall.analysis().clone();
         if analysis.standings.is_empty() {
-            return empty(ui, "Three samples per pixel, and the first numbers appear.");
+            return empty(ui, "Numbers appear after three samples per pixel.");
         }
-        // The one with the best efficiency is marked, if its lead over the second is beyond doubt.
+        // The view with the highest efficiency is marked if its lead is significant.
         let winner = winner(&analysis.standings).filter(|_| analysis.standings.len() == cx.doc.view_count());
         let measure = analysis.measure.filter(|_| cx.doc.compare.reference != ReferenceDoc::None);
         let row_height = 21.0 * ui.text_style_height(&egui::TextStyle::Small) / 14.0 + 2.0;
@@ -127,7 +131,7 @@ impl Tab for Ranking {
                     left_heading(
                         &mut header,
                         "bias",
-                        "What holding it against the reference, or the other unbiased views, has found",
+                        "Result of the comparison with the reference, or with the other unbiased views",
                     );
                 })
                 .body(|mut body| {
@@ -146,7 +150,7 @@ fn heading(row: &mut egui_extras::TableRow<'_, '_>, text: &str, tip: &str) {
     row.col(|ui| heading_ui(ui, text, tip));
 }
 
-/// A heading over words, which start at the left.
+/// Heading of a left-aligned column of text.
 fn left_heading(row: &mut egui_extras::TableRow<'_, '_>, text: &str, tip: &str) {
     row.col(|ui| {
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| heading_ui(ui, text, tip));
@@ -170,7 +174,7 @@ fn line(
     let view = (0..cx.doc.view_count()).find(|v| majorant_core::compare::label(*v) == s.label).unwrap_or(0);
     let error = measure.and_then(|m| s.error(m.id));
     let excluded = if s.excluded > 0 {
-        format!("{} of {} pixels have no value and are left out", s.excluded, s.pixels)
+        format!("{} of {} pixels have no finite value and are excluded", s.excluded, s.pixels)
     } else {
         String::new()
     };
@@ -188,7 +192,7 @@ fn line(
         (
             error.map_or_else(|| "–".into(), |e| digits(e.reference_share)),
             error.map_or_else(String::new, |e| {
-                format!("{:.0} % of what was measured", 100.0 * e.reference_share / e.value)
+                format!("{:.0} % of the measured error", 100.0 * e.reference_share / e.value)
             }),
         ),
         (digits(s.variance), format!("± {}", digits(s.variance_error))),
@@ -203,7 +207,7 @@ fn line(
             ui.add(egui::Label::new(text).truncate().selectable(false));
             if wins {
                 ui.label(RichText::new("best").small().color(palette.good))
-                    .on_hover_text("Its efficiency leads by more than the 95 % intervals leave in doubt");
+                    .on_hover_text("Its 95 % interval of efficiency lies above those of all other views");
             }
         });
     });
@@ -238,12 +242,12 @@ fn speedup_ui(ui: &mut Ui, cx: &mut Cx<'_>, s: &Standing, view: usize) {
         RichText::new(format!("{}×{interval}", factor(s.speedup))).monospace().size(12.0).color(colour)
     };
     let response = ui.add(egui::Label::new(text).selectable(false).sense(Sense::click()));
-    if response.on_hover_text("Click: make this view the baseline").clicked() && !baseline {
+    if response.on_hover_text("Click to use this view as baseline").clicked() && !baseline {
         cx.commands.push(Command::Wall(WallEdit::Baseline(view)));
     }
 }
 
-/// The view whose efficiency leads all others beyond doubt.
+/// Label of the view whose efficiency is significantly higher than that of all others.
 fn winner(standings: &[Standing]) -> Option<&str> {
     if standings.len() < 2 {
         return None;
@@ -254,13 +258,13 @@ fn winner(standings: &[Standing]) -> Option<&str> {
         .max_by(|a, b| a.speedup.total_cmp(&b.speedup))?;
     let mut rivals = standings.iter().filter(|s| s.label != best.label && s.speedup.is_finite());
     let clear = rivals.all(|other| {
-        // Intervals of the baseline are those of the other one.
+        // The interval of the baseline is [1, 1]: the uncertainty is in that of the other view.
         best.speedup_interval[0] > other.speedup_interval[1].max(other.speedup)
     });
     clear.then_some(best.label.as_str())
 }
 
-/// A ratio with three digits.
+/// Formats a ratio with about three digits.
 fn factor(ratio: f64) -> String {
     match ratio {
         r if r.is_nan() => "–".into(),
@@ -275,7 +279,7 @@ fn duration_short(seconds: f64) -> String {
     if seconds < 100.0 { format!("{seconds:.1}") } else { format!("{seconds:.0}") }
 }
 
-/// What the numbers are about.
+/// Draws the footnote: region, fairness, excluded pixels and reference of the table.
 fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     use majorant_core::scene::Fairness;
     let fair = match cx.doc.compare.fairness {
@@ -289,7 +293,7 @@ fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     };
     let excluded: u64 = standings.iter().map(|s| s.excluded).sum();
     let excluded = if excluded > 0 {
-        format!("; {excluded} pixels without a finite value left out")
+        format!("; {excluded} pixels without a finite value excluded")
     } else {
         String::new()
     };
@@ -299,24 +303,24 @@ fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     let drowned = drowned(standings);
     if !drowned.is_empty() {
         let text = format!(
-            "More than half of what was measured of {drowned} is the reference's own noise: a reference has to be \
-             better than what is held against it."
+            "More than half of the measured error of {drowned} is noise of the reference: it has to be less noisy than \
+             the views."
         );
         ui.label(RichText::new(text).small().color(palette.warning));
     }
 }
 
-/// What errors and verdicts of the table were measured against.
+/// Sentence that names the reference of errors and verdicts.
 fn basis(cx: &Cx<'_>, standings: &[Standing]) -> String {
     let others = "the mean of the other unbiased views";
     let origin = standings.iter().find_map(|s| match &s.against {
-        Against::Reference(origin) => Some(origin),
-        Against::Others(_) | Against::Nothing(_) => None,
+        ComparedWith::Reference(origin) => Some(origin),
+        ComparedWith::Others(_) | ComparedWith::Nothing(_) => None,
     });
     match (&cx.doc.compare.reference, origin) {
         (ReferenceDoc::None, _) => format!("No reference, no errors. Verdicts: against {others}."),
         (ReferenceDoc::Pooled, _) => {
-            format!("Errors and verdicts: against {others}, whose noise is taken off.")
+            format!("Errors and verdicts: against {others}, corrected for the noise of that mean.")
         }
         (_, Some(origin)) => format!("Errors and verdicts: against {origin}."),
         (_, None) => {
@@ -326,7 +330,7 @@ fn basis(cx: &Cx<'_>, standings: &[Standing]) -> String {
     }
 }
 
-/// Views whose errors are mostly the reference's noise, by their labels.
+/// Labels of the views whose measured errors are mostly noise of the reference.
 fn drowned(standings: &[Standing]) -> String {
     let drowned = |s: &&Standing| s.error("relmse").is_some_and(|e| e.reference_share > 0.5 * e.value);
     standings.iter().filter(drowned).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ")

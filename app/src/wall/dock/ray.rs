@@ -1,4 +1,4 @@
-//! The transmittance bench: the ray of a pixel, or of a textbook shape, under any estimator of transmittance.
+//! Transmittance along a ray: the ray of a pixel or an analytic shape, with any transmittance estimator.
 
 use super::plots::{key_ui, plot};
 use super::{Cx, Tab, empty};
@@ -15,10 +15,10 @@ use majorant_core::transmittance::{Shape, TransmittanceKind};
 use std::fmt::Write;
 use std::sync::Arc;
 
-/// See the [module](self).
+/// Tab of transmittance along a ray.
 pub struct Ray;
 
-/// Estimates of the histogram.
+/// Number of estimates in the histogram.
 const ESTIMATES: u64 = 20_000;
 const BINS: usize = 48;
 
@@ -52,19 +52,19 @@ impl Tab for Ray {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         controls_ui(ui, cx);
         if cx.inspector.ray.through == Through::Pixel && cx.wall.picked.is_none() {
-            return empty(ui, "Click a pixel of a picture, or take one of the shapes.");
+            return empty(ui, "Click a pixel of an image, or choose a shape.");
         }
         let Some(bench) = bench(cx, Some(ui.ctx().clone())) else {
             let built = cx.wall.selected_slot().is_some_and(|slot| slot.probe().is_some());
             let missed = built && !cx.inspector.ray.query.is_running();
             return empty(
                 ui,
-                if missed { "This ray misses the medium." } else { "The ray is being measured." },
+                if missed { "This ray misses the medium." } else { "The transmittance is being estimated." },
             );
         };
         numbers_ui(ui, &bench);
         let height = ui.available_height();
-        // The number at the end of the last axis reaches beyond it.
+        // The last tick label extends beyond the axis.
         ui.set_max_width(ui.available_width() - 14.0);
         ui.columns(3, |columns| {
             for column in columns.iter_mut() {
@@ -116,7 +116,7 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             shape_ui(ui, state);
         }
         let again = Button::new(RichText::new("Another").small());
-        if ui.add(again).on_hover_text("Shows another one of the estimates step by step").clicked() {
+        if ui.add(again).on_hover_text("Shows the steps of another estimate").clicked() {
             state.example += 1;
         }
         if state.query.is_running() {
@@ -125,7 +125,7 @@ fn controls_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     });
 }
 
-/// The numbers of a shape, each with its name.
+/// Draws the labelled parameters of a shape.
 fn shape_ui(ui: &mut Ui, state: &mut RayState) {
     let weak = Palette::get(ui).weak;
     let number = |ui: &mut Ui, text: &str, name: &str, value: DragValue<'_>| {
@@ -146,7 +146,7 @@ fn component_ui(ui: &mut Ui, state: &mut RayState, mode: Mode) {
             let value = DragValue::new(&mut state.lambda_nm).range(380.0..=780.0).speed(1.0).suffix(" nm");
             ui.add(value)
                 .accessible_name("Wavelength")
-                .on_hover_text("The wavelength that the extinction is taken at");
+                .on_hover_text("Wavelength at which the extinction is evaluated");
         }
         Mode::Rgb => {
             for (channel, name) in ["R", "G", "B"].into_iter().enumerate() {
@@ -159,7 +159,8 @@ fn component_ui(ui: &mut Ui, state: &mut RayState, mode: Mode) {
     }
 }
 
-/// What the controls ask for; none of a pixel as long as none is picked, or its scene is being built.
+/// Measurement that the controls describe; `None` if a pixel's ray is chosen, but no pixel is picked or the scene
+/// is still being built.
 pub(crate) fn question(wall: &Wall, state: &RayState) -> Option<RayQuestion> {
     let slot = wall.selected_slot()?;
     let mode = slot.rendered.estimator.mode;
@@ -184,7 +185,7 @@ pub(crate) fn question(wall: &Wall, state: &RayState) -> Option<RayQuestion> {
     })
 }
 
-/// The ray on the bench; worked out anew if `wake` is given and anything has changed.
+/// Returns the measured ray. It is measured again if its inputs have changed and `wake` is given.
 fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> {
     let question = question(cx.wall, &cx.inspector.ray)?;
     let slot = cx.wall.selected_slot()?;
@@ -213,7 +214,7 @@ fn bench(cx: &mut Cx<'_>, wake: Option<egui::Context>) -> Option<Arc<RayBench>> 
     answer.filter(|(_, current)| *current).map(|(bench, _)| bench)
 }
 
-/// Mean, truth and cost in one line.
+/// Draws exact value, mean and cost in one line.
 fn numbers_ui(ui: &mut Ui, bench: &RayBench) {
     let palette = Palette::get(ui);
     let [mean, error] = bench.mean;
@@ -226,7 +227,7 @@ fn numbers_ui(ui: &mut Ui, bench: &RayBench) {
     );
     let colour = if z.abs() > 4.0 { palette.error } else { palette.strong };
     ui.label(RichText::new(text).small().color(colour))
-        .on_hover_text("Beyond ±4 σ the mean is not what it should be: a biased estimator, or a majorant that does not bound");
+        .on_hover_text("Beyond ±4 σ the mean is wrong: the estimator is biased, or the majorant does not bound the extinction");
 }
 
 fn curve<'a>(name: &'a str, points: &[[f32; 2]]) -> Line<'a> {
@@ -234,12 +235,12 @@ fn curve<'a>(name: &'a str, points: &[[f32; 2]]) -> Line<'a> {
     Line::new(name, points).width(1.6)
 }
 
-/// The majorants as a line. Between pieces nothing is known to be there.
+/// Majorants as a step function, zero between the cells.
 fn stairs(bench: &RayBench) -> Vec<[f32; 2]> {
     let mut stairs = vec![[0.0, 0.0]];
     let mut end = 0.0;
     for [t0, t1, majorant] in &bench.majorants {
-        // Cells that touch may do so but for rounding.
+        // Adjacent cells may be separated by rounding errors.
         if *t0 > end + 1e-4 * bench.length {
             stairs.extend([[end, 0.0], [*t0, 0.0]]);
         }
@@ -247,7 +248,7 @@ fn stairs(bench: &RayBench) -> Vec<[f32; 2]> {
         end = *t1;
     }
     stairs.extend([[end, 0.0], [bench.length, 0.0]]);
-    // A line has no direction between two points that are one.
+    // A line between identical points has no direction.
     stairs.dedup();
     stairs
 }
@@ -257,7 +258,7 @@ fn extinction_ui(ui: &mut Ui, bench: &RayBench) {
     let names = [("extinction", palette.accent), ("majorant", palette.warning), ("look-ups", palette.strong)];
     key_ui(ui, &names);
     plot("extinction", ui, ("t", "μ"), (false, false)).show(ui, |plot| {
-        // One line per step: a single one with many right angles is drawn too thick.
+        // One line per segment: a polyline with many right angles is drawn too thick.
         for ends in stairs(bench).windows(2) {
             plot.line(curve("majorant", ends).color(palette.warning));
         }
@@ -284,7 +285,7 @@ fn transmittance_ui(ui: &mut Ui, bench: &RayBench) {
 fn histogram_ui(ui: &mut Ui, bench: &RayBench) {
     let palette = Palette::get(ui);
     let (lo, hi) = bench.estimates.iter().fold((0.0f32, 1.0f32), |(lo, hi), e| (lo.min(*e), hi.max(*e)));
-    // A long tail would leave one bar.
+    // A long tail would compress the histogram into one bar.
     let (lo, hi) = (lo.max(-4.0), hi.min(5.0));
     let width = f64::from(hi - lo) / BINS as f64;
     let mut counts = [0u32; BINS];

@@ -1,4 +1,4 @@
-//! One row of pixels through all views, with the reference.
+//! Radiance along one row of pixels, in all views and the reference.
 
 use super::plots::{legend, plot};
 use super::{Cx, Tab, empty};
@@ -9,10 +9,10 @@ use egui_plot::{FilledArea, Line, PlotPoints, VLine};
 use majorant_core::compare::label;
 use std::fmt::Write;
 
-/// See the [module](self).
+/// Tab of a row of pixels.
 pub struct Scanline;
 
-/// A row of a picture: grey, with its standard error where it is known.
+/// Row of an image: mean over the channels, and its standard error where it is known.
 struct Row {
     name: String,
     view: Option<usize>,
@@ -24,7 +24,7 @@ fn average(rgb: &[f32; 3]) -> f64 {
     rgb.iter().map(|x| f64::from(*x)).sum::<f64>() / 3.0
 }
 
-/// The picked row, or the middle one.
+/// Index of the picked row, or of the middle row.
 fn row(cx: &Cx<'_>) -> usize {
     cx.wall.picked.map_or(cx.doc.film.height as usize / 2, |[_, y]| y)
 }
@@ -77,10 +77,13 @@ impl Tab for Scanline {
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let rows = rows(cx);
         if rows.is_empty() {
-            return empty(ui, "The first samples are on their way.");
+            return empty(ui, "The first samples are being rendered.");
         }
         let palette = Palette::get(ui);
-        let text = format!("Row {}; click a pixel to choose another. Grey, ± one standard error.", row(cx));
+        let text = format!(
+            "Row {}; click a pixel to choose another. Mean over channels, ± one standard error.",
+            row(cx)
+        );
         ui.label(RichText::new(text).small().color(palette.weak));
         let picked = cx.wall.picked;
         plot("scanline", ui, ("column", "radiance"), (false, false)).legend(legend()).show(ui, |plot| {

@@ -1,4 +1,4 @@
-//! The pictures that hang, and which numbers describe them.
+//! Uploaded textures, and the provenance of the statistics that describe them.
 
 use super::super::provenance::Provenance;
 use super::super::slot::Slot;
@@ -11,31 +11,31 @@ use majorant_core::session::{Session, ViewId};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Whole pixels when enlarged: the numbers are per pixel, and so is the noise.
+/// Nearest-neighbour magnification, so that single pixels and their noise are visible.
 const TEXTURE: TextureOptions = TextureOptions {
     magnification: TextureFilter::Nearest,
     minification: TextureFilter::Linear,
     ..TextureOptions::LINEAR
 };
 
-/// A print on the graphics card.
+/// An image that is uploaded as a texture.
 pub struct UploadedImage {
-    /// The pixels.
+    /// The texture.
     pub texture: TextureHandle,
-    /// The numbers behind them; absent for the reference.
+    /// Snapshot of the view from which it was made; `None` for the reference.
     pub snapshot: Option<Arc<Snapshot>>,
-    /// What it shows, if it is a map.
+    /// Values of the map that it shows.
     pub map: Option<Arc<MapImage>>,
-    /// The session's view, if it is one's.
+    /// Session id of the view that it shows.
     id: Option<ViewId>,
-    /// The reference, if it is that.
+    /// The reference that it shows.
     pub reference: Option<Arc<Reference>>,
 }
 
 impl Wall {
     pub(super) fn upload(&mut self, ctx: &Context, picture: PictureId, print: ViewImage) {
         let ViewImage { image, snapshot, id, reference, map } = print;
-        // It may have been ordered before the views changed their places.
+        // The image may have been requested before the views were reordered.
         if let PictureId::View(view) = picture
             && self.slots.get(view).map(|slot| slot.id) != id
         {
@@ -51,7 +51,7 @@ impl Wall {
         self.uploaded.insert(picture, UploadedImage { texture, snapshot, map, id, reference });
     }
 
-    /// Pictures move with their views.
+    /// Reorders the textures after their views were reordered.
     pub(super) fn rehang(&mut self) {
         let views = |picture: &PictureId| matches!(picture, PictureId::View(_));
         let (uploaded, rest): (BTreeMap<_, UploadedImage>, _) =
@@ -64,12 +64,12 @@ impl Wall {
         }
     }
 
-    /// A picture on the wall; none if what hangs is a map that is not wanted now.
+    /// Uploaded image; `None` if it is a map other than the current one, or of an earlier reference.
     #[must_use]
     pub fn uploaded(&self, picture: PictureId) -> Option<&UploadedImage> {
         let wanted = self.map().map(|map| map.id);
         self.uploaded.get(&picture).filter(|uploaded| {
-            // What was the reference is none any more once there is another, or none yet.
+            // The texture may show an earlier reference.
             if picture == PictureId::Reference && !self.reference.is_source_of(uploaded.reference.as_ref()) {
                 return false;
             }
@@ -78,11 +78,11 @@ impl Wall {
         })
     }
 
-    /// What numbers would describe now.
+    /// Provenance of the images shown.
     pub(super) fn provenance(&self) -> Provenance {
         let shown = |(view, slot): (usize, &Slot)| {
             let current = slot.state.generation;
-            // A picture of an older submission may hang for a moment: then nothing describes it and its document.
+            // While the texture of an older submission is shown, no statistics are valid for the view.
             let uploaded = self.uploaded.get(&PictureId::View(view)).and_then(|h| h.snapshot.as_ref());
             uploaded.is_none_or(|uploaded| uploaded.generation == current).then_some(current)
         };
@@ -94,7 +94,7 @@ impl Wall {
         }
     }
 
-    /// Brings what is shown in line with what it depends on.
+    /// Updates the reference and the valid statistics.
     pub(super) fn refresh(&mut self, session: &Session) {
         let target = self.target();
         self.reference.update(&self.doc, &self.slots, target.as_deref(), session);

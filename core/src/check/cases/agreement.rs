@@ -6,7 +6,7 @@
 //! grids, depth limits, analogue absorption, roulette.
 
 use super::super::{Answer, Case, CheckError, Family, fixture};
-use super::{ASIDE, CONNECTING, SEVERAL_COMPONENTS, SPLITTING, SPLITTING_FAMILIES};
+use super::{ASIDE, CONNECTING, FAMILIES_WITH_DISTANCE_SAMPLING, SEVERAL_COMPONENTS, WITH_DISTANCE_SAMPLING};
 use crate::io::Library;
 use crate::light::Panorama;
 use crate::math::SamplerKind;
@@ -170,19 +170,19 @@ fn cases() -> Result<Vec<Case>, CheckError> {
                 d.estimator.distances = DistanceSampling::Decomposition;
                 d.medium.majorant.resolution = Some(32);
             })
-            .among(&SPLITTING),
+            .among(&WITH_DISTANCE_SAMPLING),
         cloud
             .varied("agreement/cloud-weighted-delta", |d| {
                 d.estimator.distances = DistanceSampling::WeightedDelta;
             })
-            .among(&SPLITTING),
+            .among(&WITH_DISTANCE_SAMPLING),
         inside
             .varied("agreement/inside-split", |d| {
                 d.estimator.distances = DistanceSampling::Decomposition;
                 d.estimator.absorption = Absorption::Analogue;
                 d.medium.majorant.shared = false;
             })
-            .among(&SPLITTING_FAMILIES),
+            .among(&FAMILIES_WITH_DISTANCE_SAMPLING),
         plume.varied("agreement/plume-analogue-rgb", |d| {
             d.estimator.absorption = Absorption::Analogue;
             d.estimator.light_walk = LightWalk::Separate;
@@ -246,10 +246,10 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .among(&CONNECTING),
         plume
             .varied("agreement/plume-apart", |d| d.estimator.bookkeeping = Bookkeeping::ApartF64)
-            .among(&SPLITTING_FAMILIES),
+            .among(&FAMILIES_WITH_DISTANCE_SAMPLING),
         plume
             .varied("agreement/plume-pairwise", |d| d.estimator.bookkeeping = Bookkeeping::Pairwise)
-            .among(&SPLITTING_FAMILIES),
+            .among(&FAMILIES_WITH_DISTANCE_SAMPLING),
         plume,
         cloud.varied("agreement/cloud-roulette", |d| d.estimator.roulette_depth = Some(2)),
         cloud.varied("agreement/cloud-guided-lattice", |d| {

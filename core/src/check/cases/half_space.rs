@@ -14,7 +14,7 @@
 
 use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout};
-use super::{AXIS, BY_HERO, WALKING_AND_ALL};
+use super::{AXIS, BY_HERO, UNIDIRECTIONAL_AND_FULL};
 use crate::scene::{Absorption, CoefficientsDoc};
 use crate::spectrum::SpectrumDoc;
 
@@ -103,12 +103,12 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         })
         .answered(Answer::uniform(colour.map(|c| escape(albedo_of(c))), Layout::WHOLE));
     Ok(vec![
-        sums.among(&WALKING_AND_ALL),
-        coloured.among(&WALKING_AND_ALL),
+        sums.among(&UNIDIRECTIONAL_AND_FULL),
+        coloured.among(&UNIDIRECTIONAL_AND_FULL),
         rgb.varied("half-space/chromatic-analogue", |doc| doc.estimator.absorption = Absorption::Analogue)
-            .among(&WALKING_AND_ALL),
+            .among(&UNIDIRECTIONAL_AND_FULL),
         rgb.varied("half-space/chromatic-roulette", |doc| doc.estimator.roulette_depth = Some(1))
-            .among(&WALKING_AND_ALL),
+            .among(&UNIDIRECTIONAL_AND_FULL),
         nm.varied("half-space/spectral-roulette", |doc| doc.estimator.roulette_depth = Some(2))
             .among(&BY_HERO),
         grey,

@@ -48,16 +48,16 @@ static SEVERAL_COMPONENTS: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.id != "independent").copied().collect());
 
 /// Estimators with a choice of distance sampling.
-static SPLITTING: LazyLock<Vec<Entry>> =
+static WITH_DISTANCE_SAMPLING: LazyLock<Vec<Entry>> =
     LazyLock::new(|| REGISTRY.iter().filter(|entry| entry.uses(Axis::Distances)).copied().collect());
 
-/// Estimators of [`SPLITTING`] whose paths carry several components.
-static SPLITTING_FAMILIES: LazyLock<Vec<Entry>> =
-    LazyLock::new(|| SPLITTING.iter().filter(|entry| entry.carries_family()).copied().collect());
+/// Estimators of [`WITH_DISTANCE_SAMPLING`] whose paths carry several components.
+static FAMILIES_WITH_DISTANCE_SAMPLING: LazyLock<Vec<Entry>> =
+    LazyLock::new(|| WITH_DISTANCE_SAMPLING.iter().filter(|entry| entry.carries_family()).copied().collect());
 
 /// Unidirectional sampling alone and the full combination: for cases about the medium, where next-event
 /// estimation alone needs many paths.
-static WALKING_AND_ALL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
+static UNIDIRECTIONAL_AND_FULL: LazyLock<Vec<Entry>> = LazyLock::new(|| {
     REGISTRY.iter().filter(|entry| ["spectral-mis", "uni-nee-mis"].contains(&entry.id)).copied().collect()
 });
 

@@ -12,7 +12,7 @@
 
 use super::super::truth::{self, Lattice3, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
-use super::{AXIS, CONNECTING, CONNECTING_AND_ONE, WALKING_AND_ALL};
+use super::{AXIS, CONNECTING, CONNECTING_AND_ONE, UNIDIRECTIONAL_AND_FULL};
 use crate::io::Library;
 use crate::scene::{Angle, DirectionSampling, LightSampling, PhaseDoc};
 use glam::DVec3;
@@ -165,7 +165,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             "isotropic" => case,
             // For these lobes, estimators with next-event estimation are tested with product sampling as
             // well.
-            "hg0.9" | "hg-0.9" => case.among(&WALKING_AND_ALL),
+            "hg0.9" | "hg-0.9" => case.among(&UNIDIRECTIONAL_AND_FULL),
             _ => case.among(&CONNECTING_AND_ONE),
         });
     }

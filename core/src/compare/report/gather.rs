@@ -2,7 +2,7 @@
 
 use crate::compare::curve::{Axis, Checkpoint, Point};
 use crate::compare::maps::{MAPS, Map, Range};
-use crate::compare::{Against, Estimate, Experiment, Reference, Standing, View};
+use crate::compare::{ComparedWith, Estimate, Experiment, Reference, Standing, View};
 use crate::measure::{self, MEASURES, Measure};
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -52,8 +52,8 @@ impl<'a> Gathered<'a> {
     }
 
     /// Display text for the image that the views were compared with.
-    pub fn held_against(&self) -> String {
-        match (self.reference(), self.standings.iter().find(|s| !matches!(s.against, Against::Nothing(_)))) {
+    pub fn compared_with(&self) -> String {
+        match (self.reference(), self.standings.iter().find(|s| !matches!(s.against, ComparedWith::Nothing(_)))) {
             (Some(reference), _) => reference.origin.clone(),
             (None, Some(_)) if self.experiment.has_errors() => {
                 "for every view the mean of the other unbiased views, corrected for its noise".into()
@@ -68,10 +68,10 @@ impl<'a> Gathered<'a> {
 
 impl<'a> Shown<'a> {
     fn of(experiment: &Experiment, number: usize, view: &'a View) -> Self {
-        let (_, opponent) = experiment.held_against(number);
+        let (_, comparison) = experiment.compared_with(number);
         let held: Option<Cow<'_, Reference>> = experiment.measured_against(number);
         let maps = Estimate::of(&view.snapshot).map(|estimate| {
-            let [tested, measured] = [&opponent, &held].map(|r| r.as_ref().map(|r| r.estimate()));
+            let [tested, measured] = [&comparison, &held].map(|r| r.as_ref().map(|r| r.estimate()));
             let reference = |map: &Map| if map.is_test() { tested.as_ref() } else { measured.as_ref() };
             let values = MAPS.iter().map(|map| (map, map.values(&estimate, reference(map))));
             values.filter(|(_, values)| values.iter().any(|v| v.is_finite())).collect()

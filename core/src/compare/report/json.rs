@@ -31,7 +31,7 @@ pub(super) fn document(gathered: &Gathered<'_>, what: &Formats) -> Result<String
         "fairness": experiment.doc.compare.fairness,
         "measure": gathered.measure.id,
         "region": experiment.doc.compare.region,
-        "held_against": gathered.held_against(),
+        "held_against": gathered.compared_with(),
         "reference": reference.map(|r| json!({
             "origin": r.origin, "target": r.target, "has_noise": r.standard_error().is_some(),
         })),

@@ -1,6 +1,6 @@
 //! Text formatting of numbers and verdicts, common to tables, pages and windows.
 
-use crate::compare::{Against, Standing, Verdict};
+use crate::compare::{ComparedWith, Standing, Verdict};
 
 /// Exponent in superscript digits.
 fn superscript(exponent: i32) -> String {
@@ -169,11 +169,11 @@ pub fn interval(standing: &Standing) -> Option<String> {
 
 /// Display text for the image that a view was compared with.
 #[must_use]
-pub fn against(against: &Against) -> String {
+pub fn against(against: &ComparedWith) -> String {
     match against {
-        Against::Reference(origin) => origin.clone(),
-        Against::Others(labels) => format!("mean of {labels}"),
-        Against::Nothing(why) => format!("nothing: {why}"),
+        ComparedWith::Reference(origin) => origin.clone(),
+        ComparedWith::Others(labels) => format!("mean of {labels}"),
+        ComparedWith::Nothing(why) => format!("nothing: {why}"),
     }
 }
 
@@ -185,7 +185,7 @@ const FAR: f64 = 4.0;
 pub fn verdict(standing: &Standing) -> String {
     let Some(found) = standing.agreement else {
         let why = match &standing.against {
-            Against::Nothing(why) => why,
+            ComparedWith::Nothing(why) => why,
             _ => "there is no image to compare it with",
         };
         return format!("undecided: {why}");

@@ -55,7 +55,7 @@ impl Question {
     pub fn answer(&self, rows: &[Row]) -> Option<Answer> {
         let row = |id: &str| rows.iter().find(|row| row.estimator == id);
         let (variant, against) = (row(self.variant)?, row(self.against)?);
-        let (ratio, [own_tail, other_tail]) = match self.yardstick {
+        let (ratio, [own_tail, other_tail]) = match self.criterion {
             Criterion::Efficiency => {
                 (variant.speedup_over(against), [variant.heavy_tailed, against.heavy_tailed])
             }
@@ -73,7 +73,7 @@ impl Question {
             _ => Outcome::Open,
         };
         let (question, variant, against) = (self.id, self.variant, self.against);
-        Some(Answer { question, variant, against, by: self.yardstick.unit(), ratio, outcome })
+        Some(Answer { question, variant, against, by: self.criterion.unit(), ratio, outcome })
     }
 }
 

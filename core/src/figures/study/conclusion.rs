@@ -110,7 +110,7 @@ fn verdict(studies: &[SceneStudy]) -> String {
 fn paragraph(topic: &Topic, studies: &[SceneStudy]) -> Option<String> {
     let sentence = |question: &Question| {
         let votes = Votes::of(question, studies)?;
-        let what = match question.yardstick {
+        let what = match question.criterion {
             Criterion::Efficiency => "times the efficiency",
             Criterion::Pace => "times the paths per second",
         };

@@ -33,7 +33,7 @@ impl Matrix {
             let lines = topic.questions.iter().map(|question| Line {
                 variant: name(question.variant),
                 against: name(question.against),
-                by: question.yardstick.unit(),
+                by: question.criterion.unit(),
                 cells: studies
                     .iter()
                     .map(|study| study.answer(question).map(|a| (a.ratio.as_ratio(), a.outcome)))

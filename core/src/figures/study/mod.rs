@@ -62,10 +62,10 @@ pub fn run(
     options: &Options,
     progress: impl FnMut(&Progress),
 ) -> Result<SceneStudy, FiguresError> {
-    let (mut entrants, mut left_out) = (Vec::new(), Vec::new());
+    let (mut candidates, mut left_out) = (Vec::new(), Vec::new());
     for variant in VARIANTS {
-        match variant.entrant(&rendered.scene) {
-            Ok(entrant) => entrants.push(entrant),
+        match variant.candidate(&rendered.scene) {
+            Ok(candidate) => candidates.push(candidate),
             Err(reason) => left_out.push(LeftOut { variant: variant.id, reason }),
         }
     }
@@ -74,8 +74,8 @@ pub fn run(
             name: rendered.strip.name.to_owned(),
             doc: rendered.scene.clone(),
             library: Library::default(),
-            entrants,
-            reference: ReferencePlan::Given(Box::new(rendered.held_against())),
+            candidates,
+            reference: ReferencePlan::Given(Box::new(rendered.compared_with())),
         }],
         budget: Budget::Seconds(study.seconds),
         repeats: study.repeats,

@@ -19,7 +19,7 @@ pub struct Question {
     /// Variant that it is compared with.
     pub against: &'static str,
     /// Criterion of the comparison.
-    pub yardstick: Criterion,
+    pub criterion: Criterion,
 }
 
 /// Criterion by which two variants are compared.
@@ -44,11 +44,11 @@ impl Criterion {
 }
 
 const fn efficiency(id: &'static str, variant: &'static str, against: &'static str) -> Question {
-    Question { id, variant, against, yardstick: Criterion::Efficiency }
+    Question { id, variant, against, criterion: Criterion::Efficiency }
 }
 
 const fn pace(id: &'static str, variant: &'static str, against: &'static str) -> Question {
-    Question { id, variant, against, yardstick: Criterion::Pace }
+    Question { id, variant, against, criterion: Criterion::Pace }
 }
 
 /// All topics; the first question of the first topic is the closing question of the report.

@@ -77,7 +77,7 @@ impl Variant {
     ///
     /// # Errors
     /// The reason why it cannot run on this scene, as a sentence.
-    pub fn entrant(&self, scene: &SceneDoc) -> Result<Candidate, String> {
+    pub fn candidate(&self, scene: &SceneDoc) -> Result<Candidate, String> {
         let mut edits = vec![format!("estimator.id={:?}", self.estimator)];
         edits.extend(self.set.iter().map(|edit| (*edit).to_owned()));
         let doc = scene_file::override_keys(scene, &edits).map_err(|e| e.to_string())?;
@@ -85,15 +85,15 @@ impl Variant {
             return Err(problem.to_string());
         }
         let entry = estimator::find(self.estimator).ok_or("the estimator does not exist")?;
-        let entrant = Candidate {
+        let candidate = Candidate {
             name: self.id.to_owned(),
             entry,
             settings: doc.estimator.clone(),
             own_bias: self.own_bias,
         };
-        match entrant.bias(&doc).or_else(|| (entry.infinite_variance)(&doc)) {
+        match candidate.bias(&doc).or_else(|| (entry.infinite_variance)(&doc)) {
             Some(reason) => Err(reason.to_owned()),
-            None => Ok(entrant),
+            None => Ok(candidate),
         }
     }
 }
@@ -109,16 +109,19 @@ mod tests {
     fn a_variant_has_its_settings_and_an_impossible_one_states_the_reason() {
         let scene = SceneDoc::default();
         let analogue = VARIANTS.iter().find(|v| v.id == "uni-nee-mis-analogue").unwrap();
-        let entrant = analogue.entrant(&scene).unwrap();
-        assert_eq!((entrant.entry.id, entrant.settings.absorption), ("uni-nee-mis", Absorption::Analogue));
+        let candidate = analogue.candidate(&scene).unwrap();
+        assert_eq!(
+            (candidate.entry.id, candidate.settings.absorption),
+            ("uni-nee-mis", Absorption::Analogue)
+        );
         let gone = Variant { estimator: "magic", ..*analogue };
-        assert!(gone.entrant(&scene).unwrap_err().contains("`magic`"));
+        assert!(gone.candidate(&scene).unwrap_err().contains("`magic`"));
         let unknown = Variant { set: &["estimator.magic=3"], ..*analogue };
-        assert!(unknown.entrant(&scene).unwrap_err().contains("magic"));
+        assert!(unknown.candidate(&scene).unwrap_err().contains("magic"));
         let mut clamped = scene.clone();
         clamped.medium.majorant.factor = 0.5;
         clamped.medium.majorant.when_exceeded = crate::scene::WhenExceeded::Clamp;
-        assert!(analogue.entrant(&clamped).unwrap_err().contains("clamped"));
+        assert!(analogue.candidate(&clamped).unwrap_err().contains("clamped"));
     }
 
     #[test]
@@ -127,10 +130,10 @@ mod tests {
             let scene = strip.scene_doc(&Options::default()).unwrap();
             let mut settings: Vec<_> = Vec::new();
             for variant in VARIANTS {
-                let entrant = variant.entrant(&scene).unwrap();
+                let candidate = variant.candidate(&scene).unwrap();
                 assert_eq!(name(variant.id), variant.name);
-                assert!(!settings.contains(&entrant.settings), "{} is another's double", variant.id);
-                settings.push(entrant.settings);
+                assert!(!settings.contains(&candidate.settings), "{} is another's double", variant.id);
+                settings.push(candidate.settings);
             }
         }
         for question in questions() {

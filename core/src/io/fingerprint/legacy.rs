@@ -119,7 +119,7 @@ pub(super) fn of_scene(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> O
         return None;
     }
     let mut written: DocumentMut = text_today(doc, content).parse().ok()?;
-    thaw(written.as_table_mut(), "")?;
+    restored_values(written.as_table_mut(), "")?;
     Some(of_bytes(written.to_string().as_bytes()))
 }
 
@@ -146,21 +146,21 @@ fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> String
 }
 
 /// Restores the values of version 0.1 for keys that were not hashed, and removes newer keys.
-fn thaw(table: &mut Table, pattern: &str) -> Option<()> {
+fn restored_values(table: &mut Table, pattern: &str) -> Option<()> {
     let dot = if pattern.is_empty() { "" } else { "." };
     let names: Vec<String> = table.iter().map(|(name, _)| name.to_owned()).collect();
     for name in names {
         let path = format!("{pattern}{dot}{name}");
         match table.get_mut(&name)? {
             Item::Table(inner) if !COUNTED.contains(&path.as_str()) => {
-                thaw(inner, &path)?;
+                restored_values(inner, &path)?;
                 if inner.is_empty() {
                     table.remove(&name);
                 }
             }
             Item::ArrayOfTables(entries) => {
                 for entry in entries.iter_mut() {
-                    thaw(entry, &format!("{path}.*"))?;
+                    restored_values(entry, &format!("{path}.*"))?;
                 }
             }
             Item::Value(value) => match FROZEN.iter().find(|(frozen, _)| *frozen == path) {
@@ -189,7 +189,7 @@ mod tests {
 
     fn thawed(text: &str) -> String {
         let mut written: DocumentMut = text.parse().unwrap();
-        thaw(written.as_table_mut(), "").unwrap();
+        restored_values(written.as_table_mut(), "").unwrap();
         written.to_string()
     }
 

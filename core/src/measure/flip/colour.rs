@@ -1,17 +1,17 @@
-//! Colour spaces of FLIP, and the difference of two colours in them.
+//! Colour spaces of FLIP, and the colour difference in them.
 
-/// D65, X and Z at Y = 1.
+/// White point D65: X, Y and Z at Y = 1.
 const WHITE: [f32; 3] = [0.950_428_55, 1.0, 1.088_900_4];
-/// Its reciprocal.
+/// Reciprocal of [`WHITE`].
 const INVERSE_WHITE: [f32; 3] = [1.052_156_9, 1.0, 0.918_357_7];
 
-/// Linear sRGB to XYZ, whose rows sum to [`WHITE`].
+/// Matrix from linear sRGB to XYZ, whose rows sum to [`WHITE`].
 const XYZ_FROM_RGB: [[f32; 3]; 3] = [
     [10_135_552.0 / 24_577_794.0, 8_788_810.0 / 24_577_794.0, 4_435_075.0 / 24_577_794.0],
     [2_613_072.0 / 12_288_897.0, 8_788_810.0 / 12_288_897.0, 887_015.0 / 12_288_897.0],
     [1_425_312.0 / 73_733_382.0, 8_788_810.0 / 73_733_382.0, 70_074_185.0 / 73_733_382.0],
 ];
-/// Its inverse.
+/// Inverse of [`XYZ_FROM_RGB`].
 const RGB_FROM_XYZ: [[f32; 3]; 3] = [
     [3.241_003_3, -1.537_398_9, -0.498_615_86],
     [-0.969_224_33, 1.875_930_1, 0.041_554_224],
@@ -20,10 +20,10 @@ const RGB_FROM_XYZ: [[f32; 3]; 3] = [
 
 /// Exponent of the colour difference, q_c of Andersson et al. (2020), section 4.1.3.
 const POWER: f32 = 0.7;
-/// Share of the largest colour difference, p_c, that is mapped to the share p_t of the range.
+/// Fraction p_c of the largest colour difference that is mapped to the fraction p_t of the range.
 const KNEE: [f32; 2] = [0.4, 0.95];
 
-/// As `array::map`, which the compiler does not unroll here.
+/// Like `array::map`, which the compiler does not unroll here.
 #[inline]
 pub(super) fn each([x, y, z]: [f32; 3], f: impl Fn(f32) -> f32) -> [f32; 3] {
     [f(x), f(y), f(z)]
@@ -35,18 +35,18 @@ fn times(matrix: &[[f32; 3]; 3], v: [f32; 3]) -> [f32; 3] {
     [dot(&matrix[0]), dot(&matrix[1]), dot(&matrix[2])]
 }
 
-/// Within the display's range.
+/// Clamps a colour to the display's range.
 #[inline]
 pub(super) fn clamped(rgb: [f32; 3]) -> [f32; 3] {
     each(rgb, |x| x.clamp(0.0, 1.0))
 }
 
-/// Numerator and denominator of Narkowicz's fit of the ACES curve (2015) with his exposure of 0.6, from the
-/// square down.
+/// Numerator and denominator of Narkowicz's fit of the ACES curve (2015) with his exposure of 0.6,
+/// coefficients from the square down.
 pub(super) const ACES: [[f32; 3]; 2] =
     [[0.6 * 0.6 * 2.51, 0.6 * 0.03, 0.0], [0.6 * 0.6 * 2.43, 0.6 * 0.59, 0.14]];
 
-/// The tone curve of HDR-FLIP, which passes 1 far up.
+/// Tone curve of HDR-FLIP; exceeds 1 for bright values.
 #[inline]
 pub(super) fn aces(x: f32) -> f32 {
     let curve = |c: [f32; 3]| x * x * c[0] + x * c[1] + c[2];
@@ -58,22 +58,23 @@ pub(super) fn luminance(rgb: [f32; 3]) -> f32 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 
-/// Linear sRGB to the opponent space YCxCz, which is linear too, so that blurring in it is blurring of light.
+/// Converts linear sRGB to the opponent space YCxCz, a linear space, so that blurring in it is blurring of
+/// light.
 #[inline]
-pub(super) fn opponent(rgb: [f32; 3]) -> [f32; 3] {
+pub(super) fn comparison(rgb: [f32; 3]) -> [f32; 3] {
     let xyz = times(&XYZ_FROM_RGB, rgb);
     let [x, y, z] = [xyz[0] * INVERSE_WHITE[0], xyz[1], xyz[2] * INVERSE_WHITE[2]];
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// YCxCz to linear sRGB.
+/// Converts YCxCz to linear sRGB.
 #[inline]
 fn rgb_of_opponent([y, cx, cz]: [f32; 3]) -> [f32; 3] {
     let y = (y + 16.0) / 116.0;
     times(&RGB_FROM_XYZ, [(y + cx / 500.0) * WHITE[0], y, (y - cz / 200.0) * WHITE[2]])
 }
 
-/// CIELAB (CIE 15:2004) of linear sRGB.
+/// Converts linear sRGB to CIELAB (CIE 15:2004).
 #[inline]
 fn lab(rgb: [f32; 3]) -> [f32; 3] {
     const DELTA: f32 = 6.0 / 29.0;
@@ -84,7 +85,7 @@ fn lab(rgb: [f32; 3]) -> [f32; 3] {
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// CIELAB with the Hunt effect: chroma is seen in proportion to lightness.
+/// CIELAB with the Hunt effect: chroma is perceived in proportion to lightness.
 #[inline]
 fn hunt([l, a, b]: [f32; 3]) -> [f32; 3] {
     [l, 0.01 * l * a, 0.01 * l * b]
@@ -97,10 +98,10 @@ fn hyab(p: [f32; 3], q: [f32; 3]) -> f32 {
     (p[0] - q[0]).abs() + (da * da + db * db).sqrt()
 }
 
-/// The scale of colour differences.
+/// Colour difference with its scale.
 #[derive(Clone, Copy)]
 pub(super) struct ColourDifference {
-    /// That of green and blue, the largest on a display.
+    /// Difference of green and blue, the largest on a display.
     largest: f32,
     knee: f32,
 }
@@ -115,7 +116,7 @@ impl ColourDifference {
     /// ΔE_c of two blurred colours in YCxCz, from 0 to 1 (Andersson et al. 2020, section 4.1.3).
     #[inline]
     pub(super) fn of(self, p: [f32; 3], q: [f32; 3]) -> f32 {
-        // Much of many pictures is as black as its reference.
+        // Common case: many pixels are as black as the reference.
         if p == q {
             return 0.0;
         }
@@ -136,7 +137,7 @@ mod tests {
     #[test]
     fn opponent_space_goes_there_and_back() {
         for rgb in [[0.0; 3], [1.0; 3], [0.2, 0.5, 0.9]] {
-            for (x, y) in rgb.iter().zip(rgb_of_opponent(opponent(rgb))) {
+            for (x, y) in rgb.iter().zip(rgb_of_opponent(comparison(rgb))) {
                 assert!((x - y).abs() < 1e-5, "{rgb:?}");
             }
         }
@@ -147,7 +148,7 @@ mod tests {
     #[test]
     fn differences_run_from_zero_to_one() {
         let scale = ColourDifference::new();
-        let of = |p, q| scale.of(opponent(p), opponent(q));
+        let of = |p, q| scale.of(comparison(p), comparison(q));
         assert_eq!(of([0.3, 0.2, 0.1], [0.3, 0.2, 0.1]), 0.0);
         assert!((of([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]) - 1.0).abs() < 1e-5);
         assert!(of([0.5; 3], [0.51; 3]) < of([0.5; 3], [0.6; 3]));

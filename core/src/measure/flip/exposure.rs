@@ -1,20 +1,21 @@
-//! The exposures under which HDR-FLIP looks.
+//! Exposures of HDR-FLIP.
 
 use super::super::picture::is_finite;
 use super::colour::{ACES, luminance};
 
-/// The tone curve's value that the brightest and the median pixel are brought to (Andersson et al. 2021).
+/// Value of the tone curve to which the brightest and the median pixel are exposed (Andersson et al. 2021).
 const TARGET: f32 = 0.85;
 
-/// Exposures in stops, at most one apart, but two at least: from the one that brings the reference's brightest
-/// pixel to the tone curve's shoulder to the one that brings its median there. As in the authors' evaluator,
-/// median is not taken below 2⁻²³, so a picture more than half black is looked at in more than 20 stops; here
-/// the maximum is not either, so that an all-black one is looked at too. Pixels that are not finite are left out.
+/// Exposures in stops, at most one apart and at least two: from the exposure that brings the reference's
+/// brightest pixel to [`TARGET`] on the tone curve to the one that brings its median there. As in the
+/// authors' evaluator, the median is at least 2⁻²³, so an image more than half black has more than 20
+/// exposures. Here the maximum is at least 2⁻²³, too, so that an all-black image has an exposure. Non-finite
+/// pixels are omitted.
 pub(super) fn exposures(reference: &[[f32; 3]]) -> Vec<f32> {
     let mut luminances: Vec<f32> = reference
         .iter()
         .filter(|rgb| is_finite(**rgb))
-        // Three finite channels may sum to more than a float holds.
+        // Three finite channels may sum to infinity.
         .map(|rgb| luminance(*rgb).clamp(0.0, f32::MAX))
         .collect();
     let Some(middle) = luminances.len().checked_div(2).filter(|_| !luminances.is_empty()) else {
@@ -32,7 +33,7 @@ pub(super) fn exposures(reference: &[[f32; 3]]) -> Vec<f32> {
     (0..count).map(|i| start + i as f32 * step).collect()
 }
 
-/// The radiance that the curve brings to [`TARGET`], the larger root of a quadratic.
+/// Radiance that the tone curve maps to [`TARGET`], the larger root of a quadratic.
 fn toned_to_target() -> f32 {
     let [above, below] = ACES;
     let [a, b, c] = [0, 1, 2].map(|i| above[i] - TARGET * below[i]);
@@ -48,13 +49,13 @@ mod tests {
     #[test]
     fn from_the_brightest_to_the_median() {
         assert!((aces(toned_to_target()) - TARGET).abs() < 1e-6);
-        // The authors' evaluator, version 1.7, for an 8 × 8 picture of 10⁻⁵ with one pixel of 1.
+        // The authors' evaluator, version 1.7, for an 8 × 8 image of 10⁻⁵ with one pixel of 1.
         let mut picture = vec![[1e-5; 3]; 64];
         picture[18] = [1.0; 3];
         let found = exposures(&picture);
         assert_eq!(found.len(), 17);
         assert!((found[0] - 1.083_297_3).abs() < 1e-5 && (found[16] - 17.692_938).abs() < 1e-5, "{found:?}");
-        // The same of 0.
+        // The same image with 0 in place of 10⁻⁵.
         picture.fill([0.0; 3]);
         picture[18] = [1.0; 3];
         let found = exposures(&picture);
@@ -63,7 +64,7 @@ mod tests {
     }
 
     #[test]
-    fn any_picture_has_exposures() {
+    fn any_image_has_exposures() {
         for picture in [
             vec![],
             vec![[f32::NAN; 3]],

@@ -1,12 +1,12 @@
-//! Edges and points, which are noticed where they come or go.
+//! Edge and point features, whose appearance and disappearance is noticed.
 
 use super::kernel::{Kernel, PIXELS_PER_DEGREE};
 
-/// Width of the features that are looked for, degrees (Andersson et al. 2020, section 4.2).
+/// Width of the detected features, degrees (Andersson et al. 2020, section 4.2).
 const WIDTH: f32 = 0.082;
 
-/// A Gaussian and its first and second derivative: edges and points are found along one axis by a derivative,
-/// along the other by the Gaussian.
+/// A Gaussian and its first and second derivative. Edges and points are detected by a derivative along one
+/// axis and the Gaussian along the other.
 pub(super) fn kernels() -> [Kernel; 3] {
     let sigma = 0.5 * WIDTH * PIXELS_PER_DEGREE;
     let radius = (3.0 * sigma).ceil() as usize;

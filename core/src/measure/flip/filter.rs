@@ -1,11 +1,11 @@
-//! Separable filters along rows and columns; pixels beyond the border are those at it.
+//! Separable filters along rows and columns; border pixels are repeated beyond the border.
 
 use super::kernel::Kernel;
 
-/// Pixels that are summed at once, in registers.
+/// Number of pixels that are summed at once, in registers.
 const BLOCK: usize = 32;
 
-/// A row of pixels that is repeated beyond both ends.
+/// A row of pixels, with the end pixels repeated beyond both ends.
 pub(super) struct PaddedRow {
     values: Vec<f32>,
     margin: usize,
@@ -13,12 +13,12 @@ pub(super) struct PaddedRow {
 }
 
 impl PaddedRow {
-    /// Room for a row of `width` pixels and kernels up to a radius of `margin`.
+    /// Creates a row of `width` pixels, for kernels up to a radius of `margin`.
     pub(super) fn new(width: usize, margin: usize) -> Self {
         Self { values: vec![0.0; width + 2 * margin], margin, width }
     }
 
-    /// Takes the pixels, at least one.
+    /// Sets the pixels, of which there is at least one.
     pub(super) fn set(&mut self, pixel: impl Fn(usize) -> f32) {
         let Self { values, margin, width } = self;
         let last = *margin + *width - 1;
@@ -37,7 +37,7 @@ impl PaddedRow {
     }
 }
 
-/// out(x) = Σ_k w_k · row_k(x), where `row` gives the row under each tap.
+/// out(x) = Σ_k w_k · row_k(x), where `row` returns the row for each tap.
 pub(super) fn weighted<'a>(out: &mut [f32], kernel: &Kernel, row: impl Fn(usize) -> &'a [f32]) {
     let width = out.len();
     let taps: Vec<(f32, &[f32])> =
@@ -47,7 +47,7 @@ pub(super) fn weighted<'a>(out: &mut [f32], kernel: &Kernel, row: impl Fn(usize)
     for (b, block) in blocks.iter_mut().enumerate() {
         let mut sums = [0.0; BLOCK];
         for (w, source) in &taps {
-            // Of a length that the compiler knows, so that the sums stay in registers.
+            // A length known at compile time keeps the sums in registers.
             let Some(source) = source[b * BLOCK..].first_chunk::<BLOCK>() else { continue };
             for i in 0..BLOCK {
                 sums[i] += w * source[i];

@@ -3,20 +3,20 @@
 /// Pixels per degree of visual angle: 0.7 m from a display 0.7 m and 3840 pixels wide.
 pub(super) const PIXELS_PER_DEGREE: f32 = 0.7 * (3840.0 / 0.7) * (std::f32::consts::PI / 180.0);
 
-/// Weights of an odd number of taps, centred.
+/// Centred kernel with an odd number of taps.
 #[derive(Clone, Debug)]
 pub(super) struct Kernel {
-    /// From the left or the top.
+    /// Weights, from the left or the top.
     pub weights: Vec<f32>,
 }
 
 impl Kernel {
-    /// Samples a function at whole pixels up to `radius`.
+    /// Samples a function at integer offsets up to `radius`.
     pub(super) fn sampled(radius: usize, f: impl Fn(f32) -> f32) -> Self {
         Self { weights: (0..=2 * radius).map(|i| f(i as f32 - radius as f32)).collect() }
     }
 
-    /// Taps on either side of the middle.
+    /// Number of taps on either side of the centre.
     pub(super) fn radius(&self) -> usize {
         self.weights.len() / 2
     }
@@ -25,13 +25,13 @@ impl Kernel {
         self.weights.iter().sum()
     }
 
-    /// Every weight multiplied.
+    /// Multiplies every weight.
     pub(super) fn scaled(mut self, factor: f32) -> Self {
         self.weights.iter_mut().for_each(|w| *w *= factor);
         self
     }
 
-    /// Positive weights scaled to a sum of 1, negative ones to −1.
+    /// Scales positive weights to a sum of 1, and negative weights to a sum of −1.
     pub(super) fn balanced(mut self) -> Self {
         let of_sign = |positive: bool| -> f32 {
             self.weights.iter().filter(|w| (**w > 0.0) == positive).map(|w| w.abs()).sum()
@@ -41,8 +41,8 @@ impl Kernel {
         self
     }
 
-    /// Without outer taps too small to be seen in single precision: some Gaussians are much narrower than
-    /// the widest, which sets the radius of all.
+    /// Removes outer taps that are negligible in single precision: some Gaussians are much narrower than the
+    /// widest, which sets the radius of all.
     pub(super) fn trimmed(mut self) -> Self {
         let seen = 1e-9 * self.weights.iter().fold(0.0f32, |m, w| m.max(w.abs()));
         let outer = self.weights.iter().take(self.radius()).take_while(|w| w.abs() < seen).count();

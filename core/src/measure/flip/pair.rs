@@ -1,21 +1,21 @@
-//! Two pictures on their way through the filters.
+//! Filtering of two images for FLIP.
 
 use rayon::prelude::*;
 
 use super::super::Picture;
 use super::super::picture::is_finite;
-use super::colour::{ColourDifference, opponent};
+use super::colour::{ColourDifference, comparison};
 use super::csf;
 use super::feature::{self, Features, difference};
 use super::filter::{PaddedRow, weighted};
 use super::kernel::Kernel;
 
-/// Planes that filtering along x leaves: Y, Cx, Cz twice, and of Y the edges, points and blur.
+/// Planes after filtering along x: Y, Cx, Cz twice, and edges, points and blur of Y.
 const PLANES: usize = 7;
-/// Planes that filtering along y leaves: Y, Cx, Cz twice, edges along x and y, points along x and y.
+/// Planes after filtering along y: Y, Cx, Cz twice, edges along x and y, points along x and y.
 const FILTERED: usize = 8;
 
-/// Picture and reference, with the filters and their buffers.
+/// Image and reference, with filters and buffers.
 pub(super) struct Pair<'a> {
     pixels: [&'a [[f32; 3]]; 2],
     width: usize,
@@ -23,12 +23,12 @@ pub(super) struct Pair<'a> {
     colour: [Kernel; 4],
     feature: [Kernel; 3],
     difference: ColourDifference,
-    /// Filtered along x: row by row, in each plane by plane.
+    /// Images filtered along x, row by row, and plane by plane within a row.
     rows: [Vec<f32>; 2],
 }
 
 impl<'a> Pair<'a> {
-    /// Pictures of the same size.
+    /// Creates a pair from two images of the same size.
     pub(super) fn new(picture: &Picture<'a>, reference: &Picture<'a>) -> Self {
         let (width, height) = (picture.width, picture.height);
         let rows = [(); 2].map(|()| vec![0.0; PLANES * picture.pixels.len()]);
@@ -43,9 +43,10 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Raises every value of a map to LDR-FLIP of the pictures as `shown` on a display (linear, from 0 to 1).
+    /// Raises every value of a map to at least the LDR-FLIP of the images as `shown` on a display (linear, 0
+    /// to 1).
     pub(super) fn raise(&mut self, map: &mut [f32], shown: impl Fn([f32; 3]) -> [f32; 3] + Sync) {
-        // Rows of no pixels cannot be told apart.
+        // Chunks of zero width are invalid.
         if self.width == 0 {
             return;
         }
@@ -75,7 +76,7 @@ impl<'a> Pair<'a> {
         [(); 4].map(|()| PaddedRow::new(self.width, margin))
     }
 
-    /// Row `y` of picture `i` in YCxCz, filtered along x.
+    /// Converts row `y` of image `i` to YCxCz and filters it along x.
     fn along_x(
         &self,
         i: usize,
@@ -87,7 +88,7 @@ impl<'a> Pair<'a> {
         let row: Vec<[f32; 3]> = (y * self.width..(y + 1) * self.width)
             .map(|at| {
                 let finite = self.pixels.iter().all(|pixels| is_finite(pixels[at]));
-                opponent(shown(if finite { self.pixels[i][at] } else { [0.0; 3] }))
+                comparison(shown(if finite { self.pixels[i][at] } else { [0.0; 3] }))
             })
             .collect();
         let [lightness, red_green, blue_yellow, grey] = padded;
@@ -111,7 +112,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Row `y` filtered along y.
+    /// Filters row `y` along y.
     fn along_y(&self, y: usize, rows: &[f32], filtered: &mut [f32]) {
         let [lightness, red_green, first, second] = &self.colour;
         let [blur, edge, point] = &self.feature;

@@ -1,9 +1,9 @@
-//! FLIP against its authors' evaluator, version 1.7.
+//! Tests of FLIP against its authors' evaluator, version 1.7.
 
 use super::super::fixture::{Fixture, of_size, values};
 use super::*;
 
-/// Mean and largest difference of two maps, and their means.
+/// Relative difference of the means of two maps, and their largest absolute difference.
 fn compared(found: &[f32], expected: &[f32]) -> (f64, f64) {
     assert_eq!(found.len(), expected.len());
     let mean = |map: &[f32]| map.iter().map(|x| f64::from(*x)).sum::<f64>() / map.len() as f64;

@@ -1,30 +1,30 @@
-//! Samples by bricks, before they are kept: what plain arrays and a file's own blocks have in common.
+//! Samples in bricks, before they are stored: the common form of plain arrays and of a file's own blocks.
 
 use rayon::prelude::*;
 
-/// Samples along the edge of a brick.
+/// Edge length of a brick in samples.
 pub const BRICK_EDGE: usize = 8;
 pub(super) const BRICK: usize = BRICK_EDGE * BRICK_EDGE * BRICK_EDGE;
 
-/// A box of samples by bricks of 8³. Places that no brick was put at hold brick 0, which is zero; a brick may stand
-/// at several places.
+/// A box of samples in bricks of 8³. Places without a brick refer to brick 0, which is zero; a brick may be
+/// referenced from several places.
 #[derive(Clone, Debug)]
 pub struct Bricks<const C: usize> {
-    /// Samples of the box.
+    /// Size of the box in samples.
     pub(super) size: [usize; 3],
-    /// Added to a sample's coordinates: where in its brick the box begins.
+    /// Offset of the box within its first brick, added to the coordinates of a sample.
     pub(super) phase: [usize; 3],
     /// Bricks per axis.
     pub(super) counts: [usize; 3],
-    /// A brick for every place, x fastest.
+    /// Index of the brick at every place, x fastest.
     pub(super) index: Vec<u32>,
-    /// Brick after brick, x fastest.
+    /// Values of all bricks, one after the other, x fastest.
     pub(super) values: Vec<[f32; C]>,
 }
 
 impl<const C: usize> Bricks<C> {
-    /// A box of zeros that begins at `phase` within its first brick; `None` without samples, or if they cannot be
-    /// counted.
+    /// Creates a box of zeros that begins at `phase` within its first brick; `None` if it has no samples, or
+    /// their number overflows.
     #[must_use]
     pub fn zero(size: [usize; 3], phase: [usize; 3]) -> Option<Self> {
         let phase = phase.map(|p| p % BRICK_EDGE);
@@ -34,7 +34,8 @@ impl<const C: usize> Bricks<C> {
         Some(Self { size, phase, counts, index, values: vec![[0.0; C]; BRICK] })
     }
 
-    /// An array of samples, x fastest, then y, then z; `None` if their number does not fit or is zero.
+    /// Creates bricks from an array of samples, x fastest, then y, then z; `None` if their number does not
+    /// match or is zero.
     #[must_use]
     pub fn of_array(size: [usize; 3], samples: &[[f32; C]], phase: [usize; 3]) -> Option<Self> {
         if size[0].checked_mul(size[1])?.checked_mul(size[2])? != samples.len() {
@@ -42,7 +43,7 @@ impl<const C: usize> Bricks<C> {
         }
         let mut bricks = Self::zero(size, phase)?;
         let (counts, phase) = (bricks.counts, bricks.phase);
-        // The box that a brick covers, in samples.
+        // Range of samples that a brick covers along an axis.
         let span = |brick: usize, axis: usize| {
             let at = [brick % counts[0], brick / counts[0] % counts[1], brick / counts[0] / counts[1]][axis];
             let first = (at * BRICK_EDGE).max(phase[axis]) - phase[axis];
@@ -78,7 +79,7 @@ impl<const C: usize> Bricks<C> {
         self.counts
     }
 
-    /// Adds bricks of 512 samples each, x fastest, and puts them where `places` says, in bricks from the corner.
+    /// Appends bricks of 512 samples each, x fastest, and places them at `places`, in bricks from the corner.
     pub fn put_all(&mut self, places: &[[usize; 3]], samples: &[f32]) {
         let next = self.values.len() / BRICK;
         let samples = samples[..(places.len() * BRICK * C).min(samples.len())].par_chunks_exact(C);
@@ -88,7 +89,7 @@ impl<const C: usize> Bricks<C> {
         }
     }
 
-    /// Adds a brick of one value; its number, to [`Self::put`] it where it belongs.
+    /// Appends a brick of one value and returns its number for [`Self::put`].
     pub fn add_constant(&mut self, value: [f32; C]) -> u32 {
         if value == [0.0; C] {
             return 0;
@@ -97,7 +98,7 @@ impl<const C: usize> Bricks<C> {
         (self.values.len() / BRICK - 1) as u32
     }
 
-    /// Puts a brick at a place; nothing happens beyond the box.
+    /// Places a brick; ignored outside the box.
     pub fn put(&mut self, [x, y, z]: [usize; 3], number: u32) {
         let [nx, ny, nz] = self.counts;
         if x < nx && y < ny && z < nz {
@@ -105,7 +106,7 @@ impl<const C: usize> Bricks<C> {
         }
     }
 
-    /// At how many places every brick stands.
+    /// Number of places that refer to each brick.
     pub(super) fn uses(&self) -> Vec<u64> {
         let mut uses = vec![0; self.values.len() / BRICK];
         for brick in &self.index {
@@ -115,7 +116,7 @@ impl<const C: usize> Bricks<C> {
     }
 }
 
-/// Where in its brick a sample is.
+/// Offset of a sample within its brick.
 #[inline]
 pub(super) fn local([x, y, z]: [usize; 3]) -> usize {
     let inside = |i: usize| i % BRICK_EDGE;

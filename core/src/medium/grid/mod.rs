@@ -1,4 +1,4 @@
-//! Samples on a lattice over the unit cube, trilinear between.
+//! Sample grids over the unit cube, with trilinear interpolation.
 
 mod bricks;
 mod pages;
@@ -16,25 +16,25 @@ use glam::Vec3;
 use rayon::prelude::*;
 use store::Store;
 
-/// Where along an axis of the unit cube the `n` samples stand.
+/// Positions of the `n` samples along an axis of the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lattice {
-    /// Sample `i` at (i + ½)/n: `.npy` and `.vol`. Beyond the outermost samples the value is held.
+    /// Sample `i` at (i + ½)/n: `.npy` and `.vol`. The value is constant beyond the outermost samples.
     CellCentred,
-    /// Sample `i` at i/(n − 1): OpenVDB, whose values stand at integer indices.
+    /// Sample `i` at i/(n − 1): OpenVDB, whose values are at integer indices.
     VertexCentred,
 }
 
-/// How samples are kept.
+/// Storage format of samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Packing {
-    /// Of every value.
+    /// Precision of every value.
     pub precision: Precision,
-    /// Where in a brick of the file's own the first sample stands, along every axis.
+    /// Position of the first sample within a brick of the file, along every axis.
     pub phase: [usize; 3],
 }
 
-/// `C` values per sample, kept in bricks of which empty ones cost nothing.
+/// Grid with `C` values per sample, stored in bricks; empty bricks take no memory.
 #[derive(Clone, Debug)]
 pub struct Grid<const C: usize> {
     size: [usize; 3],
@@ -51,20 +51,20 @@ pub struct Grid<const C: usize> {
 }
 
 impl<const C: usize> Grid<C> {
-    /// A grid of `size` samples per axis, x fastest, then y, then z; `None` if the number of values does not
-    /// fit or is zero.
+    /// Creates a grid with `size` samples per axis, x fastest, then y, then z; `None` if the number of values
+    /// does not match or is zero.
     #[must_use]
     pub fn new(size: [usize; 3], values: Vec<[f32; C]>, lattice: Lattice) -> Option<Self> {
         Self::packed(size, &values, lattice, Packing::default())
     }
 
-    /// As [`Self::new`], kept as `packing` says.
+    /// As [`Self::new`], in a given storage format.
     #[must_use]
     pub fn packed(size: [usize; 3], values: &[[f32; C]], lattice: Lattice, packing: Packing) -> Option<Self> {
         Some(Self::of_bricks(Bricks::of_array(size, values, packing.phase)?, lattice, packing.precision))
     }
 
-    /// A grid of bricks.
+    /// Creates a grid from bricks.
     #[must_use]
     pub fn of_bricks(bricks: Bricks<C>, lattice: Lattice, precision: Precision) -> Self {
         let size = bricks.size;
@@ -89,14 +89,14 @@ impl<const C: usize> Grid<C> {
         Self { size, store, scale, offset, last, max, mean, occupied, error, precision }
     }
 
-    /// The value at a point of the unit cube.
+    /// Trilinearly interpolated value at a point of the unit cube.
     #[must_use]
     #[inline]
     pub fn at(&self, unit: Vec3) -> [f32; C] {
         let index = (unit * self.scale + self.offset).clamp(Vec3::ZERO, self.last);
         let (x, y, z) = (index.x as u32 as usize, index.y as u32 as usize, index.z as u32 as usize);
         let f = index - Vec3::new(x as u32 as f32, y as u32 as f32, z as u32 as f32);
-        // The upper neighbour of the last sample is itself, with weight 0.
+        // The upper neighbour of the last sample is the sample itself, with weight 0.
         let [nx, ny, nz] = self.size;
         let next = [(x + 1).min(nx - 1), (y + 1).min(ny - 1), (z + 1).min(nz - 1)];
         let v = self.store.corners([x, y, z], next);
@@ -108,8 +108,8 @@ impl<const C: usize> Grid<C> {
         })
     }
 
-    /// The value of one of the eight samples around a point of the unit cube, drawn by their trilinear weights
-    /// from three numbers uniform in [0, 1): its expectation is [`Self::at`], at the price of a single fetch
+    /// Value of one of the eight samples around a point of the unit cube, selected with its trilinear weight
+    /// by three numbers uniform in [0, 1). The expectation is [`Self::at`], at the cost of a single fetch
     /// (Hofmann et al. 2021, "Efficient unbiased volume path tracing on the GPU").
     #[must_use]
     #[inline]
@@ -119,8 +119,8 @@ impl<const C: usize> Grid<C> {
         self.sample([at(index.x, self.size[0]), at(index.y, self.size[1]), at(index.z, self.size[2])])
     }
 
-    /// A look-up of either kind. The numbers that choose a sample follow from the point and `salt`, which has to
-    /// differ between grids that are looked up at one point.
+    /// Looks up a value with either interpolation. The random numbers of a stochastic look-up are a hash of
+    /// the point and `salt`, which has to differ between grids that are looked up at the same point.
     #[must_use]
     #[inline]
     pub fn look_up(&self, unit: Vec3, interpolation: Interpolation, salt: u32) -> [f32; C] {
@@ -130,31 +130,31 @@ impl<const C: usize> Grid<C> {
         }
     }
 
-    /// Where a point of the unit cube lies, in samples; beyond the outermost ones for some lattices.
+    /// Position of a point of the unit cube in samples; for some lattices beyond the outermost ones.
     #[must_use]
     pub fn index_from_unit(&self, unit: Vec3) -> Vec3 {
         unit * self.scale + self.offset
     }
 
-    /// One sample.
+    /// Value of one sample.
     #[must_use]
     #[inline]
     pub fn sample(&self, at: [usize; 3]) -> [f32; C] {
         self.store.sample(at)
     }
 
-    /// Copies the samples of a row along x; false if all of them are known to be zero.
+    /// Copies the samples of a row along x; returns false if all of them are known to be zero.
     pub(super) fn row(&self, yz: [usize; 2], row: &mut Vec<[f32; C]>) -> bool {
         self.store.row(yz, self.size[0], row)
     }
 
-    /// The largest value per channel; it bounds the interpolated field.
+    /// Maximum per channel, which bounds the interpolated field.
     #[must_use]
     pub fn max(&self) -> [f32; C] {
         self.max
     }
 
-    /// The mean value per channel.
+    /// Mean per channel.
     #[must_use]
     pub fn mean(&self) -> [f32; C] {
         self.mean
@@ -166,32 +166,32 @@ impl<const C: usize> Grid<C> {
         self.size
     }
 
-    /// Samples that are not zero.
+    /// Number of non-zero samples.
     #[must_use]
     pub fn occupied(&self) -> usize {
         self.occupied
     }
 
-    /// How values are kept.
+    /// Precision of the values.
     #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
     }
 
-    /// The largest error that keeping them so has made in any value.
+    /// Maximum error of any value due to reduced precision.
     #[must_use]
     pub fn storage_error(&self) -> f32 {
         self.error
     }
 
-    /// Bytes that the values take.
+    /// Memory of the values and their index in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.store.bytes()
     }
 }
 
-/// What is known of many samples.
+/// Statistics of many samples.
 struct Totals<const C: usize> {
     max: [f32; C],
     sum: [f64; C],
@@ -202,7 +202,7 @@ struct Totals<const C: usize> {
 impl<const C: usize> Totals<C> {
     const ZERO: Self = Self { max: [0.0; C], sum: [0.0; C], occupied: 0, error: 0.0 };
 
-    /// Of a brick that stands at `uses` places, against the values that it was made of.
+    /// Statistics of a brick that is referenced `uses` times, with errors relative to its exact values.
     fn of_brick(store: &Store<C>, brick: usize, uses: u64, exact: Option<&[[f32; C]]>) -> Self {
         let mut totals = Self::ZERO;
         for place in brick * BRICK..(brick + 1) * BRICK {

@@ -1,7 +1,7 @@
-//! Memory for many values, in large pages where the system has them.
+//! Memory for large arrays, in huge pages where the system has them.
 //!
-//! Look-ups fall anywhere in a grid. In pages of 4 KiB nearly every one of them also misses the processor's table of
-//! pages once a grid is larger than a few megabytes; in pages of 2 MiB hardly any does.
+//! Look-ups access a grid at random. In pages of 4 KiB nearly every look-up misses the TLB once a grid is
+//! larger than a few megabytes; in pages of 2 MiB hardly any does.
 
 use bytemuck::Pod;
 use memmap2::MmapMut;
@@ -9,15 +9,15 @@ use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// From this many bytes on, values are worth pages of their own.
+/// Minimum size in bytes of values that get their own pages.
 const LARGE: usize = 8 << 20;
 
-/// Values that do not change any more.
+/// Immutable values.
 #[derive(Clone, Debug)]
 pub(super) enum Pages<T> {
     /// On the heap.
     Heap(Arc<[T]>),
-    /// In pages of their own, and how many values they hold.
+    /// In separate pages, with the number of values.
     Own(Arc<MmapMut>, usize, PhantomData<T>),
 }
 
@@ -32,13 +32,13 @@ impl<T: Pod + Send + Sync> From<Vec<T>> for Pages<T> {
 }
 
 impl<T: Pod> Pages<T> {
-    /// A copy in pages of its own; `None` if the system has none to give.
+    /// Copies values to separate pages; `None` if the system cannot allocate them.
     fn own(values: &[T]) -> Option<Self> {
         let bytes: &[u8] = bytemuck::cast_slice(values);
         let mut map = MmapMut::map_anon(bytes.len()).ok()?;
         #[cfg(target_os = "linux")]
         {
-            // Refused where large pages are switched off: small ones will do.
+            // Fails where huge pages are disabled; small pages work as well.
             let _ = map.advise(memmap2::Advice::HugePage);
         }
         map.copy_from_slice(bytes);

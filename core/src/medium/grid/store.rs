@@ -1,12 +1,11 @@
-//! Samples in memory: bricks of 8³, of which those that hold nothing are shared.
+//! Samples in memory: bricks of 8³, with all empty bricks shared.
 //!
 //! ```text
-//!   brick = index[x/8, y/8, z/8]      value = values[512 · brick + x%8 + 8 (y%8) + 64 (z%8)]
+//!   brick = index[x/8, y/8, z/8]   value = values[512 · brick + x%8 + 8 (y%8) + 64 (z%8)]
 //! ```
 //!
-//! Brick 0 is zero, so that a look-up is the same everywhere. Bricks have no halo: two thirds of
-//! all cells lie within one brick, and the memory stays that of the voxels. They are laid so that a file's
-//! own blocks of 8³ fall on them.
+//! Brick 0 is zero, so that look-ups need no special case. Bricks have no halo: two thirds of all cells lie
+//! within one brick, and the memory is that of the voxels. Bricks are aligned with a file's own blocks of 8³.
 
 use super::Precision;
 use super::bricks::{BRICK, BRICK_EDGE, Bricks, local};
@@ -20,10 +19,10 @@ use rayon::prelude::*;
 pub(super) struct Store<const C: usize> {
     /// Bricks per axis.
     bricks: [usize; 3],
-    /// Added to a sample's coordinates: where in its brick the box begins.
+    /// Offset of the box within its first brick, added to the coordinates of a sample.
     phase: [usize; 3],
     index: Vec<u32>,
-    /// Whether a row of bricks along x holds any but brick 0.
+    /// Whether a row of bricks along x has any brick other than brick 0.
     occupied: Vec<bool>,
     values: Values<C>,
 }
@@ -32,29 +31,29 @@ pub(super) struct Store<const C: usize> {
 enum Values<const C: usize> {
     F32(Pages<[f32; C]>),
     F16(Pages<[f16; C]>),
-    /// Steps of a fixed size per channel.
+    /// Multiples of a step per channel.
     U8(Pages<[u8; C]>, [f32; C]),
 }
 
-/// Where eight samples around a cell lie.
+/// Positions in the values of the eight samples around a cell.
 #[derive(Clone, Copy)]
 struct Corners([usize; 8]);
 
 impl<const C: usize> Store<C> {
-    /// Keeps bricks at some precision.
+    /// Stores bricks at some precision.
     pub fn new(bricks: Bricks<C>, precision: Precision) -> Self {
         let Bricks { phase, counts, index, values, .. } = bricks;
         let occupied = index.chunks_exact(counts[0]).map(|row| row.iter().any(|brick| *brick != 0)).collect();
         Self { bricks: counts, phase, index, occupied, values: Values::at(values, precision) }
     }
 
-    /// The value of one sample.
+    /// Value of one sample.
     #[inline]
     pub fn sample(&self, at: [usize; 3]) -> [f32; C] {
         self.value(self.place(at))
     }
 
-    /// Value number `place` of all bricks.
+    /// Value at a position in the values of all bricks.
     #[inline]
     pub fn value(&self, place: usize) -> [f32; C] {
         match &self.values {
@@ -64,7 +63,7 @@ impl<const C: usize> Store<C> {
         }
     }
 
-    /// The values of samples `at` and `next` along every axis, x fastest.
+    /// Values of samples `at` and `next` along every axis, x fastest.
     #[inline]
     pub fn corners(&self, at: [usize; 3], next: [usize; 3]) -> [[f32; C]; 8] {
         let places = self.corner_places(at, next);
@@ -73,7 +72,7 @@ impl<const C: usize> Store<C> {
             Values::F16(values) => {
                 let mut found = [[0.0; C]; 8];
                 for c in 0..C {
-                    // Eight at a time: one instruction where the processor has it.
+                    // Eight at a time: a single instruction on processors that have it.
                     let halves = places.0.map(|i| values[i][c]);
                     let mut singles = [0.0f32; 8];
                     halves.convert_to_f32_slice(&mut singles);
@@ -113,7 +112,8 @@ impl<const C: usize> Store<C> {
         self.index[brick] as usize * BRICK + local([x, y, z])
     }
 
-    /// Replaces `row` by the samples (0..count, y, z); false, and no samples, if only the background is there.
+    /// Replaces `row` by the samples (0..count, y, z). Returns false, with an empty row, if they are all
+    /// background.
     pub fn row(&self, [y, z]: [usize; 2], count: usize, row: &mut Vec<[f32; C]>) -> bool {
         row.clear();
         let [nx, ny, _] = self.bricks;
@@ -130,7 +130,7 @@ impl<const C: usize> Store<C> {
         true
     }
 
-    /// Bytes of values and index.
+    /// Memory of values and index in bytes.
     pub fn bytes(&self) -> usize {
         let values = match &self.values {
             Values::F32(values) => size_of_val(&values[..]),

@@ -1,4 +1,4 @@
-//! Bricks against the plain array that they stand for.
+//! Tests of bricks against the plain array that they represent.
 
 use super::*;
 use crate::math::Sampler;
@@ -9,7 +9,7 @@ fn ramp(lattice: Lattice) -> Grid<1> {
 }
 
 #[test]
-fn samples_stand_where_the_lattice_says() {
+fn samples_are_at_the_positions_of_the_lattice() {
     let cell = ramp(Lattice::CellCentred);
     let vertex = ramp(Lattice::VertexCentred);
     let mut i = 0.0;
@@ -42,7 +42,7 @@ fn sizes_that_do_not_fit_are_refused() {
     assert!(Grid::<1>::new([usize::MAX, 2, 2], vec![], Lattice::CellCentred).is_none());
 }
 
-/// Noise in a ball, nothing around it.
+/// Noise in a ball, zero around it.
 fn ball<const C: usize>(size: [usize; 3], random: &mut Sampler) -> Vec<[f32; C]> {
     let n = Vec3::from(size.map(|n| n as f32));
     (0..size.iter().product())
@@ -55,7 +55,7 @@ fn ball<const C: usize>(size: [usize; 3], random: &mut Sampler) -> Vec<[f32; C]>
         .collect()
 }
 
-/// Trilinear interpolation in the array itself, in double precision.
+/// Trilinear interpolation in the plain array, in double precision.
 fn plain<const C: usize>(size: [usize; 3], values: &[[f32; C]], lattice: Lattice, unit: Vec3) -> [f64; C] {
     let mut sum = [0.0; C];
     let axes: [_; 3] = std::array::from_fn(|a| {
@@ -115,7 +115,7 @@ fn agrees<const C: usize>(size: [usize; 3], packing: Packing, lattice: Lattice) 
 }
 
 #[test]
-fn bricks_hold_the_field_of_the_array_they_stand_for() {
+fn bricks_hold_the_field_of_the_array_they_represent() {
     for precision in [Precision::F32, Precision::F16, Precision::U8] {
         for (size, phase) in [([19, 8, 33], [0, 0, 0]), ([19, 8, 33], [7, 3, 5]), ([1, 9, 16], [1, 0, 7])] {
             for lattice in [Lattice::CellCentred, Lattice::VertexCentred] {
@@ -147,7 +147,7 @@ fn one_fetch_is_the_trilinear_value_in_the_mean() {
 
 #[test]
 fn memory_is_that_of_the_voxels_that_hold_something() {
-    // A ball in one corner of a box that is empty otherwise, on bricks and beside them.
+    // A ball in one corner of an otherwise empty box, aligned with bricks and unaligned.
     let (n, r) = (160usize, 56.0f32);
     for phase in [0, 3] {
         let value = |i: usize| {

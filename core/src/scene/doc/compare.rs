@@ -12,7 +12,7 @@ pub const MAX_VIEWS: usize = 8;
 pub struct CompareDoc {
     /// Views besides view A.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub views: Vec<ContenderDoc>,
+    pub views: Vec<ViewOverrides>,
     /// Quantity of which every view gets the same amount.
     pub fairness: Fairness,
     /// Reference that errors are measured against.
@@ -52,7 +52,7 @@ impl Default for MeasureId {
 /// Settings in which a view differs from the scene; all others are the scene's.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct ContenderDoc {
+pub struct ViewOverrides {
     /// Estimator of light transport.
     pub estimator: EstimatorDoc,
     /// Majorant that free flights are sampled from.
@@ -232,9 +232,9 @@ impl SceneDoc {
 
     /// Settings of a view, from which another view can be created. `None` if the view does not exist.
     #[must_use]
-    pub fn contender(&self, view: usize) -> Option<ContenderDoc> {
+    pub fn view_overrides(&self, view: usize) -> Option<ViewOverrides> {
         match view {
-            0 => Some(ContenderDoc {
+            0 => Some(ViewOverrides {
                 estimator: self.estimator.clone(),
                 majorant: self.medium.majorant.clone(),
                 seed: self.render.seed,
@@ -249,7 +249,7 @@ impl SceneDoc {
     #[must_use]
     pub fn free_seed(&self) -> u64 {
         let taken: Vec<u64> =
-            (0..self.view_count()).filter_map(|v| self.contender(v)).map(|c| c.seed).collect();
+            (0..self.view_count()).filter_map(|v| self.view_overrides(v)).map(|c| c.seed).collect();
         (0..).find(|seed| !taken.contains(seed)).unwrap_or_default()
     }
 
@@ -277,7 +277,7 @@ mod tests {
 
     fn two_views() -> SceneDoc {
         let mut doc = SceneDoc::default();
-        let mut other = doc.contender(0).unwrap_or_default();
+        let mut other = doc.view_overrides(0).unwrap_or_default();
         other.estimator.id = "nee".into();
         other.seed = doc.free_seed();
         doc.compare.views.push(other);

@@ -19,7 +19,7 @@ pub use crate::medium::{MajorantDoc, WhenExceeded};
 pub use crate::phase::{Angle, PhaseDoc};
 pub use camera::{CameraDoc, FilmDoc};
 pub use coefficients::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS};
-pub use compare::{CompareDoc, ContenderDoc, Fairness, MAX_VIEWS, MeasureId, ReferenceDoc};
+pub use compare::{CompareDoc, Fairness, MAX_VIEWS, MeasureId, ReferenceDoc, ViewOverrides};
 pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
     LightSampling, LightWalk, Mode, Tracking,

@@ -197,7 +197,7 @@ fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     let mut doc = read(&table)?;
     // Views that are referred to by index have to exist.
     while doc.compare.views.len() < 7 && key.path.starts_with("compare.") {
-        doc.compare.views.push(doc.contender(0).unwrap());
+        doc.compare.views.push(doc.view_overrides(0).unwrap());
     }
     match validate(&doc).into_iter().find(|problem| problem.path != "medium.phase.points") {
         None => Ok(doc),
@@ -418,7 +418,7 @@ fn the_readme_has_every_key() {
 }
 
 #[test]
-fn rows_are_told_as_json() {
+fn rows_are_written_as_json() {
     let ids = |registry| if registry == super::Registry::Estimators { vec!["nee"] } else { vec!["relmse"] };
     for key in all() {
         let object = super::json(key, &ids);

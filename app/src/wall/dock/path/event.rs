@@ -44,15 +44,18 @@ fn story_ui(ui: &mut Ui, row: &Row, ledger: &Ledger) {
             weak(ui, format!("random numbers {}", numbers.join("  ")));
         }
     });
-    match (row.step, &row.credit) {
-        (_, Some(credit)) => {
-            let (technique, nulls) = (credit.technique.name(), credit.nulls);
-            weak(ui, format!("{technique}, scattering order {}, {nulls} null collisions", credit.order));
-            if ledger.credits().all(|credit| credit.by_definition.is_none()) {
+    match (row.step, &row.contribution) {
+        (_, Some(contribution)) => {
+            let (technique, nulls) = (contribution.technique.name(), contribution.nulls);
+            weak(
+                ui,
+                format!("{technique}, scattering order {}, {nulls} null collisions", contribution.order),
+            );
+            if ledger.contributions().all(|contribution| contribution.by_definition.is_none()) {
                 weak(ui, "this estimator has no path densities for comparison".to_owned());
             }
         }
-        (Step::Leave(value, density), _) => {
+        (Step::Direction(value, density), _) => {
             weak(
                 ui,
                 format!("phase function or cosine lobe {value:.5}, sampled with density {density:.5} /sr"),
@@ -76,10 +79,10 @@ fn lines<'a>(row: &Row, kept_names: [&'a str; 3], count: usize) -> Vec<(&'a str,
         let named = kept_names.into_iter().zip(&kept.values).filter(|(name, _)| !name.is_empty());
         lines.extend(named.map(|(name, values)| (name, numbers(values))));
     }
-    if let Some(credit) = &row.credit {
-        lines.push(("emitted", numbers(&credit.emitted)));
-        lines.push(("added", numbers(&credit.value)));
-        lines.extend(credit.by_definition.iter().map(|values| ("Le f / mean p", numbers(values))));
+    if let Some(contribution) = &row.contribution {
+        lines.push(("emitted", numbers(&contribution.emitted)));
+        lines.push(("added", numbers(&contribution.value)));
+        lines.extend(contribution.by_definition.iter().map(|values| ("Le f / mean p", numbers(values))));
     } else if let Some(found) = &row.found {
         lines.push(("μa", numbers(&found.absorption)));
         lines.push(("μs", numbers(&found.scattering)));
@@ -112,12 +115,14 @@ fn short(value: f32) -> String {
 /// Colour of an event, in the 3D view and in the table.
 pub(super) fn colour(row: &Row, palette: &Palette) -> Color32 {
     match (row.step, row.branch) {
-        (Step::Credit, _) => palette.warning,
-        (Step::Absorb | Step::Die(_), _) => palette.error,
+        (Step::Contribution, _) => palette.warning,
+        (Step::Absorb | Step::Terminate(_), _) => palette.error,
         (Step::Null, Branch::Path | Branch::LightWalk) => palette.weak,
         (Step::Null, _) => Color32::from_rgb(196, 140, 88),
         (Step::Scatter | Step::Reflect, _) => palette.accent,
-        (Step::Connect(..) | Step::Dark | Step::Transmittance, _) => Color32::from_rgb(228, 138, 62),
+        (Step::Connect(..) | Step::NoContribution | Step::Transmittance, _) => {
+            Color32::from_rgb(228, 138, 62)
+        }
         _ => palette.text,
     }
 }

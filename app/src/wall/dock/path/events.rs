@@ -40,7 +40,7 @@ pub(super) fn events_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
             .header(height, |mut header| {
                 let names = [
                     ("", ""),
-                    ("event", "Indented: on a shadow connection, or on a walk that only evaluates emission"),
+                    ("event", "Indented: on a connection, or on a walk that only evaluates emission"),
                     ("f", "Contribution of the path at its hero wavelength: a product over its events"),
                     ("p uni", "Probability density of the path under unidirectional sampling"),
                     (
@@ -94,8 +94,8 @@ fn row_ui(row: &mut TableRow<'_, '_>, i: usize, event: &Row, palette: &Palette) 
         });
     }
     row.col(|ui| {
-        if let Some(credit) = &event.credit {
-            let grey = credit.film.element_sum() / 3.0;
+        if let Some(contribution) = &event.contribution {
+            let grey = contribution.film.element_sum() / 3.0;
             let text = small(format!("{grey:.5}"), colour(event, palette));
             ui.add(Label::new(text).selectable(false));
         }

@@ -1,4 +1,4 @@
-//! Replay of one path with its random numbers: list of samples, 3D view of the path, and table of path weights.
+//! Replay of one path with its random numbers: list of samples, 3D view, and table of path weights.
 //!
 //! All three show the same event: selecting an event in one marks it in the others.
 
@@ -46,7 +46,7 @@ impl Tab for Path {
             String::from("row,branch,event,x,y,z,ln_f,ln_p_uni,ln_p_nee,added_r,added_g,added_b\n");
         for (i, row) in replayed.ledger.rows.iter().enumerate() {
             let [x, y, z] = row.point.map_or([f32::NAN; 3], |p| p.to_array());
-            let [r, g, b] = row.credit.map_or([0.0; 3], |c| c.film.to_array());
+            let [r, g, b] = row.contribution.map_or([0.0; 3], |c| c.film.to_array());
             let (f, uni, nee) = (row.f[0].ln(), row.uni[0].ln(), row.nee[0].ln());
             // Writing to a string cannot fail.
             let _ = writeln!(

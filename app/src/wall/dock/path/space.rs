@@ -219,7 +219,7 @@ impl Eye<'_> {
                 Step::Null => {
                     self.painter.circle_stroke(at, 2.6, Stroke::new(1.2, colour));
                 }
-                Step::Absorb | Step::Die(_) => {
+                Step::Absorb | Step::Terminate(_) => {
                     self.painter.rect_filled(Rect::from_center_size(at, vec2(7.0, 7.0)), 0.0, colour);
                 }
                 Step::Scatter | Step::Reflect => {
@@ -247,9 +247,10 @@ impl Eye<'_> {
         self.frame(|within| world.transform_point3((corner + within) / n), stroke);
     }
 
-    /// Draws the phase function at the selected vertex, in the plane of the incident direction that faces the camera.
+    /// Draws the phase function at the selected vertex, in the plane through the incident direction that faces
+    /// the camera.
     fn lobe(&self, scene: &Scene, replayed: &Replayed, row: &Row, size: f32) {
-        if !matches!(row.step, Step::Scatter | Step::Leave(..) | Step::Connect(..)) {
+        if !matches!(row.step, Step::Scatter | Step::Direction(..) | Step::Connect(..)) {
             return;
         }
         let Some(point) = row.point else { return };
@@ -297,7 +298,7 @@ impl Eye<'_> {
 /// Direction of the path segment that precedes a note.
 fn direction_before(replayed: &Replayed, note: usize) -> Option<Vec3> {
     replayed.recording.notes[..note].iter().rev().find_map(|note| match note {
-        Note::Camera { ray, .. } | Note::Leave { ray, .. } => Some(ray.direction),
+        Note::Camera { ray, .. } | Note::Direction { ray, .. } => Some(ray.direction),
         _ => None,
     })
 }

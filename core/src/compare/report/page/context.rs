@@ -59,7 +59,7 @@ impl Context {
             note: doc.note.clone(),
             version: env!("CARGO_PKG_VERSION"),
             size: first.map_or_else(String::new, |s| format!("{} × {}", s.width, s.height)),
-            against: gathered.held_against(),
+            against: gathered.compared_with(),
             fairness: match doc.compare.fairness {
                 Fairness::Time => "CPU seconds of path tracing",
                 Fairness::Samples => "samples per pixel",

@@ -1,27 +1,27 @@
 //! Paths as sequences of events, for tests of the path weights: f, p_uni and p_nee by their definitions, in
 //! double precision, straight from the table of events, and in Miller's pairwise form.
 
-use crate::medium::{Coefficients, MajorantSegment};
-use crate::scene::Absorption;
-use crate::spectrum::Sampled;
-use crate::transport::Collision;
-use crate::transport::DirectionSample;
-use crate::transport::Weights;
 use glam::Vec3;
+use majorant_core::medium::{Coefficients, MajorantSegment};
+use majorant_core::scene::Absorption;
+use majorant_core::spectrum::Sampled;
+use majorant_core::transport::Collision;
+use majorant_core::transport::DirectionSample;
+use majorant_core::transport::Weights;
 use proptest::array::uniform;
 use proptest::prelude::*;
 use std::array::from_fn;
 
 /// Medium at a collision, per component; the extinction may exceed the majorant, or vanish.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<const N: usize> {
+pub struct Place<const N: usize> {
     extinction: [f32; N],
     albedo: [f32; N],
     majorant: [f32; N],
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Step<const N: usize> {
+pub enum Step<const N: usize> {
     Pass {
         majorant: [f32; N],
         distance: f32,
@@ -37,7 +37,7 @@ pub(super) enum Step<const N: usize> {
 
 /// A path from the camera to a light.
 #[derive(Clone, Debug)]
-pub(super) struct Events<const N: usize> {
+pub struct Events<const N: usize> {
     pub absorption: Absorption,
     /// Events before the last real vertex.
     pub before: Vec<Step<N>>,
@@ -125,7 +125,7 @@ impl<const N: usize> Step<N> {
 }
 
 /// f, p_uni and p_nee of a whole path, and the quotients p_i / f_j, each updated event by event.
-pub(super) struct Plain<const N: usize> {
+pub struct Plain<const N: usize> {
     pub f: [f64; N],
     pub uni: [f64; N],
     pub nee: [f64; N],
@@ -162,7 +162,7 @@ impl<const N: usize> Events<N> {
         }
         // Either technique leaves the last vertex.
         if let Some(outgoing) = step.outgoing() {
-            path.leave(&outgoing);
+            path.choose_direction(&outgoing);
         }
     }
 
@@ -271,7 +271,7 @@ fn on_the_way<const N: usize>() -> impl Strategy<Value = Step<N>> {
     ]
 }
 
-pub(super) fn events<const N: usize>() -> impl Strategy<Value = Events<N>> {
+pub fn events<const N: usize>() -> impl Strategy<Value = Events<N>> {
     let before = prop_oneof![
         4 => on_the_way(),
         3 => vertex(),

@@ -1,24 +1,28 @@
 //! Tests of the path weights: the rescaled form against plain products in double precision and against
 //! Miller's pairwise form, and weights that sum to one over all techniques and heroes.
 
-#[path = "weights_plain.rs"]
-mod plain;
+#[path = "path_weights/definition.rs"]
+mod definition;
 
-use super::PathWeights;
-use crate::math::Sampler;
-use crate::medium::{Coefficients, MajorantSegment};
-use crate::scene::{Absorption, Heuristic, Heuristics};
-use crate::spectrum::Sampled;
-use crate::transport::DirectionSample;
-use crate::transport::{
-    CancelToken, Collision, Event, Trace, WalkWeights, Weights, WeightsApart, WeightsPairwise,
-};
+use definition::{Events, events};
 use glam::Vec3;
-use plain::{Events, events};
+use majorant_core::math::Sampler;
+use majorant_core::medium::{Coefficients, MajorantSegment};
+use majorant_core::scene::{Absorption, Heuristic, Heuristics};
+use majorant_core::spectrum::Sampled;
+use majorant_core::transport::DirectionSample;
+use majorant_core::transport::{
+    CancelToken, Collision, Event, PathWeights, Trace, WalkWeights, Weights, WeightsApart, WeightsPairwise,
+};
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestCaseError};
 
 const BALANCE: Heuristics = Heuristics { components: Heuristic::Balance, techniques: Heuristic::Balance };
+
+/// f/P, p_uni/P and p_nee/P of a path.
+fn numbers<const N: usize>(path: &PathWeights<N>) -> [Sampled<N>; 3] {
+    path.weight_record().values.map(|lanes| Sampled(std::array::from_fn(|i| lanes[i])))
+}
 
 /// Relative rounding error of a product of thirty factors in single precision.
 const ROUNDING: f64 = 1e-4;
@@ -92,14 +96,14 @@ fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCase
         // Rescaled densities are in units of the density that made the path.
         if plain.uni[hero] > 0.0 {
             let walk = turned.walk::<PathWeights<N>>();
-            assert_near("p_uni of the hero", walk.uni.hero(), 1.0)?;
-            weights += 1.0 / sum(walk.uni + walk.nee * turned.light);
-            means += 1.0 / sum(walk.uni);
+            assert_near("p_uni of the hero", numbers(&walk)[1].hero(), 1.0)?;
+            weights += 1.0 / sum(numbers(&walk)[1] + numbers(&walk)[2] * turned.light);
+            means += 1.0 / sum(numbers(&walk)[1]);
         }
         if plain.nee[hero] > 0.0 {
             let link = turned.connection::<PathWeights<N>>();
-            assert_near("p_nee of the hero", link.nee.hero(), 1.0)?;
-            weights += 1.0 / sum(link.uni + link.nee);
+            assert_near("p_nee of the hero", numbers(&link)[2].hero(), 1.0)?;
+            weights += 1.0 / sum(numbers(&link)[1] + numbers(&link)[2]);
         }
     }
     prop_assert!((weights - 1.0).abs() < ROUNDING, "both techniques: {weights}");
@@ -166,9 +170,9 @@ fn roulette_leaves_weights_alone<const N: usize>(events: &Events<N>) -> Result<(
         (plain.nee[0], events.connection::<PathWeights<N>>(), without.connection::<PathWeights<N>>()),
     ] {
         if hero > 0.0 {
-            prop_assert_eq!((a.uni, a.nee), (b.uni, b.nee));
+            prop_assert_eq!((numbers(&a)[1], numbers(&a)[2]), (numbers(&b)[1], numbers(&b)[2]));
             if plain.f[0] != 0.0 {
-                assert_near("gain", a.contribution.hero() / b.contribution.hero(), gain)?;
+                assert_near("gain", numbers(&a)[0].hero() / numbers(&b)[0].hero(), gain)?;
             }
         }
     }
@@ -245,7 +249,7 @@ fn a_hundred_thousand_events_stay_finite() {
             let link = if collision.draw_event(&mut trace) == Event::Scattering {
                 path.scatter(&collision);
                 let link = path.connect(&outgoing, 40.0);
-                path.leave(&outgoing);
+                path.choose_direction(&outgoing);
                 link
             } else {
                 path.null(&collision);
@@ -280,7 +284,7 @@ fn products_apart_overflow_where_quotients_do_not() {
         for _ in 0..40 {
             path.pass(collision.coefficients.majorant * (0.2 / 480.0));
             path.scatter(collision);
-            path.leave(outgoing);
+            path.choose_direction(outgoing);
         }
         path.combined(Sampled::ONE, 1.0, BALANCE)
     }
