@@ -1,4 +1,4 @@
-//! Bad input of every kind: an error that names file, place and cure, or a labelled repair; never a panic.
+//! Invalid input: an error that names file, place and remedy, or a reported repair; never a panic.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::estimator::PathIndex;
@@ -27,7 +27,7 @@ fn with_density(file: &str) -> SceneDoc {
     doc
 }
 
-/// The message of building a scene whose density is a file with these bytes.
+/// Returns the error message for a scene whose density is a file with the given bytes.
 fn refused(name: &str, bytes: &[u8]) -> String {
     let folder = folder();
     std::fs::write(folder.path().join(name), bytes).unwrap();
@@ -98,7 +98,7 @@ fn phase_tables_are_read_from_files_and_bad_ones_refused() {
     };
     let scene = with_table("theta, p\n0, 3\n90, 1\n180, 1\n").unwrap();
     assert_eq!(scene.info.phase_points, [[0.0, 3.0], [90.0, 1.0], [180.0, 1.0]]);
-    // 1 behind, from 1 to 3 in front: 1.5 in the mean.
+    // 1 in the backward hemisphere, 1 to 3 in the forward hemisphere: the mean is 1.5.
     let expected = 2.0 / 1.5 / (4.0 * std::f32::consts::PI);
     assert!((scene.phase.value(0.5) / expected - 1.0).abs() < 1e-5);
     for (text, word) in [
@@ -157,7 +157,7 @@ fn pictures_that_are_missing_damaged_or_black() {
     let message = picture::read_panorama(&path("black.exr")).unwrap_err().to_string();
     assert!(message.contains("black"), "{message}");
 
-    // A texel that is not finite is repaired and counted; the rest gives light.
+    // Texels that are not finite are repaired and counted; the others emit light.
     let pixel = |x: usize, _: usize| if x == 0 { (f32::NAN, 1.0, -1.0) } else { (1.0f32, 2.0f32, 3.0f32) };
     exr::prelude::write_rgb_file(path("good.exr"), 4, 2, pixel).unwrap();
     let (_, repaired) = picture::read_panorama(&path("good.exr")).unwrap();
@@ -170,7 +170,7 @@ fn pictures_that_are_missing_damaged_or_black() {
     let doc = SceneDoc { lights: vec![map], ..SceneDoc::default() };
     frozen(&doc, folder.path());
 
-    // Every truncation is an error, none a panic or an enormous allocation.
+    // Every truncation is an error, without a panic or an excessive allocation.
     let whole = std::fs::read(path("good.exr")).unwrap();
     for cut in (0..whole.len()).step_by(7) {
         std::fs::write(path("part.exr"), &whole[..cut]).unwrap();
@@ -228,7 +228,7 @@ fn absurd_scenes_are_refused_by_name() {
             scene_file::parse(&format!("majorant = 1\n{text}\n"), "s.toml").unwrap_err().to_string();
         assert!(message.contains(word), "{message}");
     }
-    // Deeper than positions can resolve: a walk would never end.
+    // An optical depth beyond the resolution of positions: a walk would not terminate.
     let mut deep = SceneDoc::default();
     deep.medium.scale = 1e6;
     let message = build(&deep, &mut Library::default()).unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! The command line end to end: the real program, its output and its exit codes.
+//! End-to-end tests of the command line: output and exit codes of the program.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 #[path = "cli/bench.rs"]
@@ -144,7 +144,7 @@ fn render_writes_what_the_contract_says_and_repeats_bit_by_bit() {
     assert_eq!(info["channels"], serde_json::json!(["B", "G", "R", "stderr.B", "stderr.G", "stderr.R"]));
     assert_eq!(info["majorant"]["estimator"], "spectral-mis");
     assert_eq!(info["majorant"]["spp"], 3);
-    // The scene in the metadata renders to the same picture.
+    // The scene in the metadata renders to the same image.
     let scene = folder.path().join("again.toml");
     std::fs::write(&scene, info["majorant"]["scene"].as_str().unwrap()).unwrap();
     let again =
@@ -171,7 +171,7 @@ fn seconds_end_a_render() {
     assert!(json["seconds"].as_f64().unwrap() >= 0.3 && json["spp"].as_u64().unwrap() >= 1);
 }
 
-/// An error that can never be known ends a render, with a picture, an exit code of its own and a word about it.
+/// A render whose relative error is undefined ends with an image, a distinct exit code and a message.
 #[test]
 fn a_black_picture_ends_a_render_that_waits_for_its_error() {
     let directory = tempfile::tempdir().unwrap();
@@ -185,7 +185,7 @@ fn a_black_picture_ends_a_render_that_waits_for_its_error() {
     let json: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
     assert_eq!((json["ended_by"].as_str(), json["spp"].as_u64()), (Some("black"), Some(256)));
     assert!(png.exists());
-    // With light the error itself ends it; with samples to do, those.
+    // Other limits end a render with light.
     let lit = ["render", "first-light", "--set", "film.width=8", "film.height=6", "--json"];
     let by = |more: &[&str]| {
         let json: Value = serde_json::from_str(&succeeds(&[&lit[..], more].concat())).unwrap();
@@ -249,7 +249,7 @@ fn check_holds_estimators_against_each_other_on_a_scene_of_ones_own() {
     let json: Value = serde_json::from_str(&succeeds(&["check", &loose, "--json"])).unwrap();
     assert_eq!(json["passes"], true);
     let rows = json["rows"].as_array().unwrap();
-    // The older baseline has no finite variance in a uniform medium of this colour.
+    // Mitsuba 2's volpath has infinite variance in a homogeneous medium of this colour.
     assert_eq!(rows.len(), majorant_core::estimator::REGISTRY.len() - 1);
     for row in rows {
         assert_eq!((&row["verdict"], &row["scene"]), (&"agrees".into(), &loose.as_str().into()), "{row}");
@@ -257,7 +257,7 @@ fn check_holds_estimators_against_each_other_on_a_scene_of_ones_own() {
         assert!(number("measured") > 0.1 && number("expected") > 0.1 && number("detectable") < 0.04, "{row}");
         assert!(number("z").abs() <= number("critical_z"), "{row}");
     }
-    // Nothing is claimed of what is biased by choice.
+    // Configurations that are declared biased are not compared.
     let clamped = own("clamped.toml", "factor = 0.5, when_exceeded = \"clamp\"");
     let text = succeeds(&["check", &clamped]);
     assert!(text.contains("the majorant is clamped") && text.contains("0 of 0 agree"), "{text}");
@@ -317,7 +317,7 @@ fn limits_that_are_given_replace_the_scenes_and_say_so() {
     assert!(text(&output.stdout).contains("\"spp\":2"), "{}", text(&output.stdout));
 }
 
-/// Every key once, with what a program needs to offer it.
+/// `keys` lists every key once, with type, range, unit, default and description.
 #[test]
 fn keys_are_listed() {
     let listed: Vec<Value> = serde_json::from_str(&succeeds(&["keys", "--json"])).unwrap();

@@ -1,5 +1,5 @@
-//! Every estimator × every case of the self-check, as one family of comparisons, with the power to see a
-//! bias of 1 % in any scene's mean; and proof that the check sees what it should.
+//! Every estimator on every case of the self-check, as one family of comparisons with the power to detect a
+//! bias of 1 % in the mean of any scene; and tests of the check with faulty estimators.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -46,16 +46,16 @@ fn every_estimator_is_true_on_every_case() {
     let report = run(cases, Effort::DEEP);
     let failures: Vec<_> = report.failures().collect();
     assert!(failures.is_empty(), "{failures:#?}");
-    assert_eq!(report.rows.len(), images, "nothing is left out");
-    // The power that is claimed: 1 % in every scene's mean under every estimator, but for those that rarely
-    // meet the light of three scenes by other renderers, where there is a budget instead.
+    assert_eq!(report.rows.len(), images, "every estimator is tested on every case");
+    // The specified power: 1 % in the mean of every scene with every estimator, except for estimators that
+    // rarely hit the lights of three scenes by other renderers, which have a budget of paths instead.
     let weak: Vec<_> =
         report.rows.iter().filter(|r| !(r.detectable <= 0.01 || budgeted.contains(&r.scene))).collect();
     assert!(weak.is_empty(), "{weak:#?}");
 }
 
-/// The embedded scenes, as a person would have their own checked. Some are hard on purpose, with noise that
-/// rare paths decide: none may be called wrong for that.
+/// The embedded scenes, checked like a user's scene. Some are difficult, with noise dominated by rare paths,
+/// which must not cause a wrong verdict.
 #[test]
 fn estimators_agree_on_the_embedded_scenes() {
     for seed in 0..2 {
@@ -69,12 +69,12 @@ fn estimators_agree_on_the_embedded_scenes() {
         let report = run(scenes.collect(), Effort::QUICK);
         assert!(report.passes(), "{:#?}", report.failures().collect::<Vec<_>>());
         let (agree, undecided) = report.agreeing_and_undecided();
-        // A cloud lit by a small sun and lamps in fog leave nearly everyone undecided with as few paths.
+        // With so few paths, most estimators are undecided on a cloud lit by a small sun and on lamps in fog.
         assert!(agree > undecided, "{agree} agree, {undecided} undecided");
     }
 }
 
-/// An estimator that is 3 % too bright and true otherwise.
+/// An estimator that is 3 % too bright and otherwise correct.
 fn bright(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     let truth = (estimator::find("uni-nee-mis").unwrap().kernel)(scene, settings, at, context);
     PathEstimate { rgb: truth.rgb * 1.03, ..truth }
@@ -91,7 +91,7 @@ static BRIGHT: [Entry; 1] = [Entry {
     kernel: bright,
 }];
 
-/// The power that is claimed is there: a bias of the size that 95 of 100 are promised to show in does.
+/// The check has the specified power: a bias of detectable size is found in at least 90 % of the rows.
 #[test]
 fn a_small_bias_is_found_in_nearly_every_case() {
     let mut cases = check::built_in(false).unwrap();
@@ -108,7 +108,7 @@ fn a_small_bias_is_found_in_nearly_every_case() {
     );
 }
 
-/// The textbook mistake is labelled, so that nothing is claimed of it; unlabelled it would be caught.
+/// A clamped majorant is declared biased and not compared; undeclared it is detected.
 #[test]
 fn a_clamped_majorant_is_labelled_and_caught() {
     static UNLABELLED: std::sync::LazyLock<Vec<Entry>> = std::sync::LazyLock::new(|| {
@@ -123,7 +123,7 @@ fn a_clamped_majorant_is_labelled_and_caught() {
     }
 }
 
-/// Every planted mistake is labelled; unlabelled, the check finds each of them where it matters.
+/// Every deliberate fault is declared; undeclared, the check detects each in a suitable case.
 #[test]
 fn planted_faults_are_labelled_and_caught() {
     static UNLABELLED: std::sync::LazyLock<Vec<Entry>> = std::sync::LazyLock::new(|| {
@@ -141,7 +141,7 @@ fn planted_faults_are_labelled_and_caught() {
         let mut case = check::named(name).unwrap().remove(0);
         case.registry = &UNLABELLED;
         if fault == Fault::HeroProbability {
-            // A channel that only absorbs; nobody has written down what escapes then.
+            // One channel only absorbs; there is no closed form for this case.
             case.doc.medium.albedo = SpectrumDoc::Rgb([0.95, 0.0, 0.8]);
             case.answer = check::Answer::Agreement;
         }
@@ -155,7 +155,7 @@ fn planted_faults_are_labelled_and_caught() {
     }
 }
 
-/// Among estimators whose answer nobody knows, the one that is wrong is told from those that are right.
+/// Without a known answer, the biased estimator is distinguished from the correct ones.
 #[test]
 fn the_odd_one_out_is_named() {
     static WITH_BRIGHT: std::sync::LazyLock<Vec<Entry>> =
@@ -172,7 +172,7 @@ fn the_odd_one_out_is_named() {
         })
         .collect();
     assert!(against["bright"].len() >= 4, "{against:?}");
-    // One or two are too noisy here to tell a few per cent; none blames another.
+    // One or two are too noisy to detect a difference of a few per cent; none differs from another.
     for (estimator, from) in against.iter().filter(|(id, _)| **id != "bright") {
         assert!(from.iter().all(|other| other == "bright"), "{estimator}: {from:?}");
     }

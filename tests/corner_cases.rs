@@ -1,5 +1,4 @@
-//! Scenes at the edges of what a scene can be, which need a test of their own beside the cases that every
-//! estimator is held against in `conformance.rs`.
+//! Extreme scenes that need separate tests in addition to the cases of `conformance.rs`.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::estimator::{self, PathIndex, REGISTRY, Settings};
@@ -9,8 +8,7 @@ use majorant_core::scene::{Mode, SceneDoc, build};
 use majorant_core::transport::CancelToken;
 use majorant_tests::render::{CAMERA, allowed, mean, scene};
 
-/// A lamp's light reaches all the way through the medium that the lamp stands in: at distance d in a
-/// black medium it is e^(−σd) of what it is without.
+/// A light inside a medium is attenuated along the full distance: by e^(−σd) at distance d in a black medium.
 #[test]
 fn the_last_stretch_to_a_light_is_not_skipped() {
     let lit = |extinction: f32| {
@@ -43,11 +41,11 @@ fn the_last_stretch_to_a_light_is_not_skipped() {
         mean(&doc, "nee", 64).0
     };
     let (clear, dimmed) = (lit(0.0), lit(100.0));
-    // 0.02 of extinction 100 lie between the lamp and the box's face.
+    // A distance of 0.02 with extinction 100 lies between the light and the face of the box.
     assert!((dimmed / clear / (-2.0f64).exp() - 1.0).abs() < 0.05, "{clear} {dimmed}");
 }
 
-/// A sphere light emits outwards only: from inside it is black, for walk and connection alike.
+/// A sphere light emits outwards only: from inside it is black, with unidirectional sampling and with NEE.
 #[test]
 fn a_sphere_light_is_dark_inside() {
     let mut doc = scene(&format!(
@@ -67,8 +65,8 @@ fn a_sphere_light_is_dark_inside() {
     }
 }
 
-/// The same picture from near and from a thousand times as far through a narrower lens: positions must
-/// not lose the digits that surfaces and media need.
+/// The image is the same from 500 times the distance with a narrower field of view: positions must keep the
+/// precision that surfaces and media need.
 #[test]
 fn distance_to_the_camera_does_not_matter() {
     let from = |distance: f32, fov_deg: f32| {
@@ -102,8 +100,8 @@ fn distance_to_the_camera_does_not_matter() {
     assert!((near - far).abs() < allowed(1) * error, "{near} {far} ± {error}");
 }
 
-/// A majorant of factor 1 bounds what look-ups see, to the last bit, at any resolution and either interpolation; a
-/// lower one is exceeded, and counted.
+/// A majorant of factor 1 bounds all look-ups exactly, at any resolution and with either interpolation;
+/// look-ups that exceed a lower one are counted.
 #[test]
 fn the_majorant_is_exceeded_only_where_it_does_not_bound() {
     for name in ["plume-spectral", "cloud-sidelit"] {

@@ -1,4 +1,4 @@
-//! The image after N samples depends on scene, settings, seed and N alone, bit by bit.
+//! The image after N samples depends only on scene, settings, seed and N, bit by bit.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::scene::Limits;
@@ -44,7 +44,7 @@ fn pauses_steps_and_raised_limits_do_not_matter() {
     assert_same(&whole, &session.wait_finished(VIEW));
 }
 
-/// The samples of an image may come in any pieces: here one limit after another.
+/// The image does not depend on how its samples are divided into limits.
 #[test]
 fn limits_raised_step_by_step_do_not_matter() {
     let whole = finished(&small_doc(2, 12));
@@ -112,16 +112,16 @@ fn a_scene_that_cannot_be_built_fails_and_the_session_lives_on() {
     session.wait_finished(VIEW);
 }
 
-/// Submits a scene in which one path takes hours and waits until it renders.
+/// Submits a scene in which one path takes hours, and waits until it is rendering.
 fn submit_endless(session: &Watched, endless: &SceneDoc) {
     session.submit(VIEW, job(endless, false));
     session.wait(VIEW, |state| state.status == Status::Rendering);
 }
 
-/// Scenes in which collisions never end, or surfaces.
+/// Scenes with nearly endless paths, by collisions and by surface reflections.
 fn endless_scenes() -> [SceneDoc; 2] {
     let dense = endless(2);
-    // A closed white room without any medium: no collision is ever looked up.
+    // A closed white room without a medium: the path has no collisions.
     let mut room = dense.clone();
     room.medium.extinction = SpectrumDoc::Constant(0.0);
     room.objects.push(ObjectDoc::Box {
@@ -143,7 +143,7 @@ fn endless_paths_are_cancelled_by_an_edit_and_by_closing() {
             session.submit(VIEW, job(&small_doc(2, 1), true));
             session.wait_finished(VIEW);
             submit_endless(&session, &endless);
-            // Dropping the session waits until its work has stopped.
+            // Dropping the session waits until its work is cancelled.
         }
     }
 }

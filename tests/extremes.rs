@@ -1,4 +1,4 @@
-//! Scenes that are as dense and as colourful as anybody will ask for: every number stays finite.
+//! Scenes of extreme density and spectral variation: all numbers stay finite.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -18,7 +18,7 @@ fn scene(toml: &str) -> (SceneDoc, Scene) {
     (doc, scene)
 }
 
-/// Optical depth 10 000 of albedo 1, a hundred times less at other wavelengths: paths of tens of
+/// Optical depth 10 000 with albedo 1, a hundred times less at other wavelengths: paths with tens of
 /// thousands of events.
 #[test]
 fn nothing_overflows_at_optical_depth_10_000() {
@@ -52,7 +52,7 @@ fn nothing_overflows_at_optical_depth_10_000() {
             let mean = paths.iter().map(|p| f64::from(p.rgb.element_sum()) / 3.0).sum::<f64>() / 256.0;
             let longest = paths.iter().map(|p| p.lookups).max().unwrap();
             println!("{} {mode:?}: mean {mean:.3}, {longest} look-ups in the longest path", entry.id);
-            // Nothing follows from the mean of what has no variance.
+            // The mean is not meaningful if the variance is infinite.
             let judged = (entry.infinite_variance)(&doc).is_none();
             assert!(!judged || (mean > 0.1 && longest > 3000), "{} {mode:?}: {mean} {longest}", entry.id);
         }

@@ -1,5 +1,5 @@
-//! The window, driven through its accessibility tree: no display, no GPU. Every check looks at the
-//! document or the session, not at labels alone.
+//! Tests of the window through its accessibility tree, without display and GPU. Checks inspect the document
+//! or the session, not only labels.
 
 #[path = "gui/files.rs"]
 mod files;
@@ -40,10 +40,10 @@ fn every_panel_opens_and_names_its_widgets() {
         open(&mut lab, panel.title());
         lab.check_accessibility();
     }
-    assert_eq!(*doc(&lab), *doc(&lab_on_default_equivalent()), "opening panels must not edit");
+    assert_eq!(*doc(&lab), *doc(&lab_on_default_equivalent()), "opening panels must not edit the scene");
 }
 
-/// The same scene, untouched.
+/// The same scene, unedited.
 fn lab_on_default_equivalent() -> Lab {
     lab().0
 }
@@ -151,7 +151,7 @@ fn every_phase_function_is_picked_and_edited() {
             assert!((now - to).abs() < 1e-3 * to.abs(), "{name}: {now} instead of {to}");
         }
     }
-    // The last is the table.
+    // The last template is the table.
     click(&mut lab, Role::Button, "First column: cos θ");
     let PhaseDoc::Tabulated { angle: Angle::Cosine, points, .. } = &doc(&lab).medium.phase else {
         panic!("{:?}", doc(&lab).medium.phase)
@@ -286,7 +286,7 @@ fn a_frame_is_cheap_and_an_edit_never_waits() {
     }
     let mut seconds = Vec::new();
     for i in 0..60_u8 {
-        // Every frame edits: the session builds and cancels all the time.
+        // An edit in every frame: the session builds and cancels continuously.
         lab.get_by_role_and_label(Role::SpinButton, "Majorant factor")
             .set_value_accesskit(1.0 + 0.05 * f64::from(i));
         lab.step();
@@ -330,5 +330,5 @@ fn long_numbers_neither_widen_a_column_nor_lose_digits() {
         lab.key_press(Key::Enter);
         lab.run_steps(3);
     }
-    assert_eq!(doc(&lab).camera, long.camera, "looking at a number must not round it");
+    assert_eq!(doc(&lab).camera, long.camera, "focusing a number must not round it");
 }

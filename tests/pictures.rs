@@ -1,4 +1,4 @@
-//! Pictures from outside by every reader of them: windows, primaries, texels that are no radiance.
+//! External images with every reader: windows, primaries, invalid texels.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use exr::meta::attribute::{Chromaticities, EnvironmentMap};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 type Colour = [f32; 3];
 
-/// How a picture is written.
+/// Properties of a written image.
 #[derive(Clone, Copy)]
 struct Written {
     /// First pixel and size of the display window.
@@ -39,7 +39,7 @@ impl Default for Written {
 }
 
 impl Written {
-    /// Writes the colour of every pixel by its place in the plane, with the standard errors of a hundredth of it.
+    /// Writes the colour of every pixel as a function of its position, with standard errors of 1 % of it.
     fn to(self, path: &Path, colour: impl Fn([i32; 2]) -> Colour) {
         let ([x, y], [width, height]) = self.data;
         let mut channels = SmallVec::new();
@@ -65,7 +65,7 @@ impl Written {
     }
 }
 
-/// A colour that differs in every pixel of the plane, never black.
+/// A unique colour per pixel, never black.
 fn plane([x, y]: [i32; 2]) -> Colour {
     [1.0 + (x + 100) as f32, 2.0 + (y + 100) as f32, 0.5 + (x * y + 10_000) as f32]
 }
@@ -76,7 +76,7 @@ fn folder() -> (tempfile::TempDir, impl Fn(&str) -> PathBuf) {
     (folder, move |name: &str| root.join(name))
 }
 
-/// All of a panorama: its texels and what they are drawn by.
+/// Full content of a panorama: its texels and their sampling distribution.
 fn contents(path: &Path) -> String {
     format!("{:?}", picture::read_panorama(path).unwrap().0)
 }
@@ -121,7 +121,7 @@ fn a_picture_is_its_display_window_for_every_reader() {
                 places.iter().map(|at| if stored(*at) { plane(*at) } else { [0.0; 3] }).collect();
             assert_eq!(([read.width, read.height], &read.pixels), (SIZE, &black), "{name}");
 
-            // Light from a whole picture with that black.
+            // The panorama equals that of a full image with black pixels.
             let shifted = |[u, v]: [i32; 2]| black[(v * 8 + u) as usize];
             Written::default().to(&whole, shifted);
             assert_eq!(contents(&file), contents(&whole), "{name}");
@@ -129,7 +129,7 @@ fn a_picture_is_its_display_window_for_every_reader() {
             assert_eq!(notices(&file).len(), usize::from(differ), "{name}: {:?}", notices(&file));
             assert_eq!(notices(&file).iter().any(|n| n.contains("are black")), is_crop, "{name}");
 
-            // Nothing is known of what a reference lacks.
+            // Missing pixels of a reference are unknown.
             let reference = Reference::read(&file).unwrap();
             assert_eq!([reference.width, reference.height], SIZE);
             let errors = reference.standard_error().unwrap();
@@ -150,7 +150,7 @@ fn a_picture_is_its_display_window_for_every_reader() {
             );
         }
     }
-    // A picture of nothing lights nothing, and is no reference.
+    // An image without pixels in the display window is neither a panorama nor a reference.
     let nowhere = path("nowhere.exr");
     Written { data: ([100, 100], SIZE), ..Written::default() }.to(&nowhere, plane);
     assert!(picture::read_panorama(&nowhere).is_err());
@@ -197,7 +197,7 @@ fn texels_that_are_no_radiance_are_repaired_by_kind_and_told() {
             assert!(notice.contains(word) && notice.contains("sun.exr"), "{told:?}");
         }
     }
-    // In half floats it is the same texel, and all the light of such a map is a number.
+    // Half floats give the same texel, and the illuminance of such a map is finite.
     let half = path("half.exr");
     let texel = |at: Vec2<usize>| if at == Vec2(3, 2) { f32::INFINITY } else { 0.5 };
     let pixel = |x: usize, y: usize| [texel(Vec2(x, y)); 3].map(f16::from_f32).into();
@@ -222,7 +222,7 @@ const AP0: Chromaticities = Chromaticities {
     white: Vec2(0.32168, 0.33767),
 };
 
-/// ACES2065-1 to linear Rec. 709 with Bradford's adaptation, as published.
+/// Published conversion from ACES2065-1 to linear Rec. 709 with Bradford adaptation.
 fn srgb_of_ap0([r, g, b]: Colour) -> Colour {
     let row = |m: [f32; 3]| m[0] * r + m[1] * g + m[2] * b;
     [
@@ -251,14 +251,14 @@ fn foreign_primaries_become_linear_srgb_for_every_reader() {
     close(&picture::read(&file).unwrap().pixels, "read");
     let reference = Reference::read(&file).unwrap();
     close(reference.mean(), "reference");
-    // Errors are bounds: at least what the matrix makes of fully correlated ones.
+    // Standard errors are bounds: at least those of fully correlated channels.
     for (mean, error) in reference.mean().iter().zip(reference.standard_error().unwrap()) {
         assert!(mean.iter().zip(error).all(|(m, e)| *e >= 0.0099 * m.abs()), "{mean:?} {error:?}");
     }
     for notices in [notices(&file), reference.notices.clone(), picture::exr_info(&file).unwrap().notices] {
         assert!(notices[0].contains("0.7347") && notices[0].contains("Bradford"), "{notices:?}");
     }
-    // As light, what is out of gamut is clamped, and counted.
+    // As a light, colours out of gamut are clamped and counted.
     let clamped: Vec<Colour> =
         picture::read(&file).unwrap().pixels.iter().map(|p| p.map(|x| x.max(0.0))).collect();
     let expected = path("srgb.exr");
@@ -276,7 +276,7 @@ fn foreign_primaries_become_linear_srgb_for_every_reader() {
     let repaired = format!("{:?}", picture::read_panorama(&file).unwrap());
     assert!(!repaired.contains("inf,") && !repaired.contains("NaN,"), "{repaired}");
 
-    // The primaries of sRGB, stated or not, are bit by bit the same.
+    // Explicit and implicit sRGB primaries give identical results.
     let rec709 = Chromaticities {
         red: Vec2(0.64, 0.33),
         green: Vec2(0.3, 0.6),
@@ -305,7 +305,7 @@ fn a_cube_map_is_no_panorama() {
     assert!(error.contains("cube map") && error.contains("cube.exr"), "{error}");
 }
 
-/// Pictures of other writers, byte by byte: see `pictures/README.md`.
+/// Images of other writers, see `pictures/README.md`.
 #[test]
 fn the_files_of_other_writers_are_what_they_mean() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("pictures");
@@ -332,7 +332,7 @@ fn a_scene_tells_what_its_picture_was_made_of() {
             LightDoc::EnvironmentMap { file: file.into(), rotate_deg: 0.0, scale: 1.0, visible: true };
         let doc = SceneDoc { lights: vec![light], ..SceneDoc::default() };
         let mut library = Library::default().with_base(&folder);
-        // The second time from what is kept.
+        // The second time from the cache.
         build(&doc, &mut library).unwrap();
         build(&doc, &mut library).unwrap().notices
     };

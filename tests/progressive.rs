@@ -1,5 +1,5 @@
-//! Majorants that are raised where they are found to be exceeded: the same picture whatever the time it takes, and an
-//! error that vanishes.
+//! Progressive majorants, which are raised where they are exceeded: the image is independent of timing, and
+//! the bias vanishes.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::film::Snapshot;
@@ -12,7 +12,7 @@ use majorant_tests::session::{Watched, assert_same, finished, job, small_doc};
 
 const VIEW: ViewId = ViewId(0);
 
-/// A scene whose majorants start at a tenth of what would bound.
+/// A scene whose majorants start at a tenth of the tight bound.
 fn doc(threads: usize, spp: u64, when_exceeded: WhenExceeded) -> SceneDoc {
     let mut doc = small_doc(threads, spp);
     doc.medium.majorant.factor = 0.1;
@@ -21,7 +21,7 @@ fn doc(threads: usize, spp: u64, when_exceeded: WhenExceeded) -> SceneDoc {
     doc
 }
 
-/// Mean over the middle of the picture, which the medium fills.
+/// Mean over the middle of the image, which the medium fills.
 fn brightness(snapshot: &Snapshot) -> f64 {
     let pixels = (12..25).flat_map(|y| (24..37).map(move |x| y * 61 + x));
     let sum: f64 = pixels.map(|i| snapshot.mean[i].iter().map(|v| f64::from(*v)).sum::<f64>()).sum();
@@ -47,7 +47,7 @@ fn neither_threads_nor_pieces_nor_previews_matter() {
 
 #[test]
 fn the_error_vanishes_where_that_of_clamping_stays() {
-    // What is cut off absorbs less.
+    // Clamping reduces absorption.
     let absorbing = |mut doc: SceneDoc| {
         doc.medium.albedo = SpectrumDoc::Constant(0.2);
         brightness(&finished(&doc))
@@ -58,7 +58,7 @@ fn the_error_vanishes_where_that_of_clamping_stays() {
     let clamped = error(256, WhenExceeded::Clamp);
     let raised = error(256, WhenExceeded::Progressive);
     assert!(clamped.abs() > 0.05 && raised.abs() < 0.2 * clamped.abs(), "{clamped} {raised}");
-    // What is left comes from the first samples: those after the sixteenth are as good as any.
+    // The remaining bias comes from the first samples: those after the sixteenth are unbiased.
     let [first, all] = [16, 256].map(|spp: u64| spp as f64 * of(spp, WhenExceeded::Progressive));
     let later = (all - first) / 240.0 / truth - 1.0;
     assert!(later.abs() < 0.01, "{later}");
@@ -68,7 +68,7 @@ fn the_error_vanishes_where_that_of_clamping_stays() {
 fn a_homogeneous_medium_is_found_out_by_the_first_sample() {
     let mut doc = doc(2, 64, WhenExceeded::Progressive);
     doc.medium.density = DensityDoc::Uniform {};
-    // A shared majorant is that of one wavelength, which has to be met first.
+    // A shared majorant is determined by one wavelength, which has to be sampled first.
     doc.medium.majorant.shared = false;
     let mut bounded = doc.clone();
     bounded.medium.majorant.factor = 1.0;
@@ -77,7 +77,7 @@ fn a_homogeneous_medium_is_found_out_by_the_first_sample() {
     let raised = session.wait_finished(VIEW);
     let probe = session.state(VIEW).probe.unwrap();
     assert_eq!(probe.violations().exceeded_cells(), 0);
-    // One sample of 64 is clamped.
+    // Only the first of 64 samples is clamped.
     let error = brightness(&raised) / brightness(&finished(&bounded)) - 1.0;
     assert!(error.abs() < 0.02, "{error}");
 }
@@ -98,10 +98,10 @@ fn a_probe_traces_every_sample_with_the_majorants_of_its_time() {
     }
 }
 
-/// Parts and evidence trace the film's own paths, each with the majorants that it had: the parts sum to the film, which the
-/// parts of any one scene would not.
+/// Contributions and noise analysis trace the paths of the film, each with the majorants that it had: the
+/// contributions sum to the film, which would not hold with fixed majorants.
 #[test]
-fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
+fn contributions_sum_to_the_film_that_was_rendered_while_majorants_rose() {
     const SPP: u64 = 21;
     let session = Watched::new();
     session.submit(VIEW, job(&doc(2, SPP, WhenExceeded::Progressive), false));
@@ -118,7 +118,7 @@ fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
             }
         }
     }
-    // The heaviest samples are the film's, too.
+    // The samples with the largest contributions are those of the film, too.
     let evidence = probe.evidence(None, None, CancelToken::NEVER).unwrap();
     for heavy in &evidence.heaviest.named {
         let recorded = probe.record(heavy.at, CancelToken::NEVER).estimate.rgb;
@@ -129,7 +129,7 @@ fn parts_sum_to_the_film_that_was_rendered_while_majorants_rose() {
     }
 }
 
-/// What is looked at, and how, does not change what the film finds: samples far ahead of it, other estimators.
+/// Retraced paths do not affect the majorants of the film, even for later samples or with other estimators.
 #[test]
 fn looking_at_paths_does_not_raise_the_majorants_of_the_film() {
     let undisturbed = finished(&doc(2, 21, WhenExceeded::Progressive));

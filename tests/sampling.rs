@@ -1,5 +1,4 @@
-//! Every sampling routine against the density that it claims, by χ² over bins: what the estimators'
-//! weights rest on.
+//! χ² tests of every sampling routine against its probability density, on which the estimators' weights rest.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 #[path = "sampling/basics.rs"]

@@ -1,4 +1,4 @@
-//! Scene files: they read back as they were written, and mistakes are named with line and column.
+//! Scene files: round trips, and error messages with line and column.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::io::embedded::SCENES;
@@ -14,7 +14,7 @@ use majorant_core::scene::{
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
-/// A document in which nothing is at its default.
+/// A document in which every key differs from its default.
 fn everything() -> SceneDoc {
     SceneDoc {
         majorant: 1,
@@ -132,7 +132,7 @@ fn with(edit: impl FnOnce(&mut MediumDoc)) -> SceneDoc {
     doc
 }
 
-/// Every kind of phase function, with numbers that are not those of the templates.
+/// Every kind of phase function, with numbers other than those of the templates.
 fn phases() -> Vec<PhaseDoc> {
     let mut phases = PhaseDoc::templates();
     for phase in &mut phases {
@@ -191,7 +191,7 @@ fn every_spectrum_form_is_understood() {
     }
 }
 
-/// Where each mistake stands, and a word of its message.
+/// Each mistake with its line, column, and a word of the message; 0 for a position that is not checked.
 #[test]
 fn mistakes_are_named_with_line_and_column() {
     for (text, line, column, word) in [
@@ -204,7 +204,7 @@ fn mistakes_are_named_with_line_and_column() {
         ("majorant = 1\n[medium]\nscale = 1.0\nalbedo = 1.5\n", 4, 10, "medium.albedo"),
         ("majorant = 1\n[medium]\nextinction = \"0.43:8, 0.54:40\"\n", 3, 14, "nanometres"),
         ("majorant = 1\n[medium]\nextinction = \"430:8 540:40\"\n", 3, 14, "430:8"),
-        ("majorant = 1\n[medium]\nextinction = \"540:40, 430:8\"\n", 3, 14, "rise"),
+        ("majorant = 1\n[medium]\nextinction = \"540:40, 430:8\"\n", 3, 14, "increase"),
         ("majorant = 1\n[medium]\nextinction = \"purple\"\n", 3, 14, "purple"),
         (
             "majorant = 1\n[[lights]]\nkind = \"environment\"\n[[lights]]\nkind = \"sphere\"\ncenter = [0.0, 0.0, 0.0]\nradius = -1.0\n",

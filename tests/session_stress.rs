@@ -1,5 +1,4 @@
-//! Sessions that are given no rest: whatever is asked of them and whenever, every view ends with the
-//! image that an undisturbed session makes, bit by bit.
+//! Sessions under random requests: every view ends with the image of an undisturbed session, bit by bit.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::film::Snapshot;
@@ -15,7 +14,7 @@ const SPP: u64 = 8;
 const VIEWS: u32 = 3;
 const REQUESTS: u32 = 150;
 
-/// Documents that differ in all that a session keeps between jobs, with their images.
+/// Documents that differ in everything that a session caches between jobs, with their images.
 fn documents() -> Vec<(SceneDoc, Arc<Snapshot>)> {
     let vary = |threads: usize, change: &dyn Fn(&mut SceneDoc)| {
         let mut doc = small_doc(threads, SPP);
@@ -32,16 +31,16 @@ fn documents() -> Vec<(SceneDoc, Arc<Snapshot>)> {
     ]
 }
 
-/// A view shows what it was given last, or still the picture that it had then: no other.
+/// Asserts that a view has a snapshot of its last submission, or the one that it had at that time.
 fn assert_not_stale(session: &Watched, view: ViewId, before: Option<&Arc<Snapshot>>) {
     let state = session.state(view);
     let newest = state.snapshot.as_ref().is_some_and(|s| s.generation == state.generation);
     let kept = state.snapshot.as_ref().map(Arc::as_ptr) == before.map(Arc::as_ptr);
-    assert!(newest || kept, "{view:?} shows the picture of a job that was replaced");
-    assert!(newest || state.status != Status::Finished, "{view:?} is finished without its picture");
+    assert!(newest || kept, "{view:?} has a snapshot of a replaced job");
+    assert!(newest || state.status != Status::Finished, "{view:?} is finished without a snapshot");
 }
 
-/// Asks a session for one thing after another; returns which document each view was given last.
+/// Sends random requests to a session; returns the index of the document last submitted to each view.
 fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) -> Vec<Option<usize>> {
     let mut random = Sampler::new(seed, 0, 0);
     let mut below = |n: u32| (random.next_1d() * n as f32) as u32;
@@ -70,7 +69,7 @@ fn storm(session: &Watched, documents: &[(SceneDoc, Arc<Snapshot>)], seed: u64) 
         if session.state(view).generation != generation {
             before[index as usize] = session.state(view).snapshot;
         }
-        // Often at once, now and then in the middle of a build, a preview or a pass.
+        // Most requests follow immediately, some during a build, a preview or a pass.
         if below(3) == 0 {
             std::thread::sleep(Duration::from_micros(u64::from(below(6000))));
         }
@@ -100,8 +99,8 @@ fn storms_of_requests_leave_every_image_as_it_was() {
     }
 }
 
-/// Views go while they are built, previewed and rendered, and so do whole sessions; a view that stays is
-/// not disturbed.
+/// Views and whole sessions are dropped while they are built, previewed and rendered; the remaining view is
+/// not affected.
 #[test]
 fn views_may_be_dropped_at_any_moment() {
     let documents = documents();
@@ -114,7 +113,7 @@ fn views_may_be_dropped_at_any_moment() {
         for i in 1..16 {
             session.remove(ViewId(i));
         }
-        // Every other session is dropped with its last view half done.
+        // Every other session is dropped while its last view is unfinished.
         if round % 2 == 0 {
             assert_same(&session.wait_finished(ViewId(0)), &documents[0].1);
             assert_eq!(session.state(ViewId(5)).status, Status::Empty);

@@ -1,5 +1,5 @@
-//! Sessions leave no thread behind. Threads are counted for the whole process, so that this is the one
-//! test of its program.
+//! All threads of a session end with it. Threads are counted for the whole process, so that this must be the
+//! only test of its program.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
@@ -7,15 +7,15 @@ use majorant_core::session::{Status, ViewId};
 use majorant_tests::session::{Watched, endless, job, small_doc};
 use std::time::{Duration, Instant};
 
-/// Threads of this process that belong to sessions, by the start of their names.
+/// Number of threads of this process that belong to sessions, found by the prefix of their names.
 fn threads() -> usize {
     let tasks = std::fs::read_dir("/proc/self/task").unwrap();
-    // A thread may end between being listed and being asked.
+    // A thread may end between the listing and the reading of its name.
     let names = tasks.filter_map(|task| std::fs::read_to_string(task.unwrap().path().join("comm")).ok());
     names.filter(|name| name.starts_with("majorant-")).count()
 }
 
-/// Waits for the system to take ended threads off its list.
+/// Asserts the number of threads; waits until the system has removed ended threads from its list.
 fn assert_threads(expected: usize, when: &str) {
     let began = Instant::now();
     while threads() != expected {
@@ -42,7 +42,7 @@ fn no_thread_outlives_its_session() {
     drop(session);
     assert_threads(0, "after a session with a view removed in the middle of a pass");
 
-    // One number of threads after the other: pools that no view uses do not pile up.
+    // Successive numbers of threads: unused pools are released.
     let session = Watched::new();
     for threads in 1..=6 {
         session.submit(view, job(&small_doc(threads, 1), false));
@@ -52,7 +52,7 @@ fn no_thread_outlives_its_session() {
     drop(session);
     assert_threads(0, "after six numbers of threads");
 
-    // Views removed, and whole sessions dropped, while they are built, previewed and rendered.
+    // Views are removed and sessions dropped while they are built, previewed and rendered.
     for round in 0..24 {
         let session = Watched::new();
         for i in 0..4 {
@@ -65,5 +65,5 @@ fn no_thread_outlives_its_session() {
             session.remove(ViewId(3));
         }
     }
-    assert_threads(0, "after sessions dropped at any moment");
+    assert_threads(0, "after sessions dropped at arbitrary times");
 }

@@ -1,4 +1,4 @@
-//! NumPy and Mitsuba volumes, built here byte by byte.
+//! NumPy and Mitsuba volumes, encoded by the tests.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -151,7 +151,7 @@ fn real_mitsuba_volumes() {
     let Some(folder) = volumes::volumes() else {
         return;
     };
-    // Minimum, maximum and mean as NumPy finds them; the third file does hold negative values.
+    // Minimum, maximum and mean computed with NumPy; the third file contains negative values.
     for (name, size, channels, min_max, mean, negative) in [
         ("mitsuba_albedo.vol", [16, 16, 16], 3, (9.988575e-6, 1.0), 0.5125000001796375, 0),
         ("lajolla_smoke.vol", [128, 128, 50], 1, (0.0, 1.0), 0.01156106642304237, 0),

@@ -1,4 +1,4 @@
-//! Damaged files: an error or a grid, never a panic, a long wait, or much memory.
+//! Damaged files: an error or a grid, never a panic, a long run time or excessive memory.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -16,10 +16,10 @@ use majorant_tests::volumes::{self, mutate};
 
 const TRUNCATIONS: usize = 200;
 const BYTE_FLIPS: usize = 500;
-/// Most time for one damaged file, description and reading together.
+/// Maximum time for one damaged file, for description and reading together.
 const MAX_TIME: Duration = Duration::from_secs(30);
 
-/// Small enough that a breach shows in the memory of the process.
+/// Limits small enough that a violation is visible in the memory of the process.
 const LIMITS: ReadLimits = ReadLimits {
     max_file_bytes: 1 << 22,
     max_tree_bytes: 1 << 26,
@@ -27,7 +27,7 @@ const LIMITS: ReadLimits = ReadLimits {
     max_blocks: 1 << 22,
 };
 
-/// What became of the damaged copies of one file.
+/// Results for the damaged copies of one file.
 #[derive(Default, Debug)]
 struct Tally {
     errors: usize,
@@ -74,14 +74,14 @@ fn damage(path: &Path) {
     assert!(cut.slowest.max(flipped.slowest) < MAX_TIME, "{label} took too long");
 }
 
-/// Most memory this process has ever had, in bytes.
+/// Peak memory of this process, in bytes.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? << 10)
 }
 
-/// Checks the memory of the whole process, as all tests of this file keep within [`LIMITS`].
+/// Checks the peak memory of the process, in which all tests of this file use [`LIMITS`].
 fn assert_little_memory() {
     if let Some(peak) = peak_memory() {
         println!("peak memory: {} MB", peak >> 20);

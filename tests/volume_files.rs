@@ -1,4 +1,4 @@
-//! The volumes that are part of the project: read exactly, refused with a reason, or repaired.
+//! Volumes that are part of the project: read exactly, refused with a reason, or repaired.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -86,7 +86,7 @@ fn grids_are_chosen_by_name() {
     let error = read_vdb(&path, Some("smoke"), &limits).unwrap_err().to_string();
     assert!(error.contains("\"smoke\""), "{error}");
     assert!(error.contains("\"density\", \"heat\""), "{error}");
-    // No grid of the default name: one with a name like it.
+    // Without a grid of the default name, one with a similar name is chosen.
     let torus = volumes::fixtures().join("arnold_torus01.vdb");
     assert_eq!(read_vdb(&torus, None, &limits).unwrap().name, "voxel_fog_density");
     let vectors = volumes::fixtures().join("tiny_vector.vdb");
@@ -158,8 +158,8 @@ fn a_refused_grid_leaves_the_others_readable() {
     assert!(read_vdb_bytes(&bytes, "two.vdb", None, &limits).is_err(), "density is not replaced");
 }
 
-/// The grid that is chosen in a role, and what is told, by both readers of a file of float grids with these names and
-/// classes.
+/// Name and notices of the grid chosen for a role, by both readers of a file with float grids of the given
+/// names and classes.
 fn chosen(grids: &[(&str, &str)], role: GridRole) -> Result<(String, Vec<String>), String> {
     let grids: Vec<_> =
         grids.iter().map(|(name, class)| TinyGrid { name, class, ..TinyGrid::default() }).collect();
@@ -204,11 +204,11 @@ fn the_density_is_found_by_name_and_class_and_told() {
         assert!(notices[0].contains(&format!("{expected:?} is read as the density")), "{notices:?}");
         assert!(notices[0].contains("medium.density.grid"), "{notices:?}");
     }
-    // Without a choice there is nothing to tell.
+    // Without alternatives there is no notice.
     for grids in [&[("density", fog)][..], &[("temperature", fog), ("density", fog), ("v", "unknown")]] {
         assert_eq!(chosen(grids, GridRole::Density).unwrap(), ("density".into(), Vec::new()));
     }
-    // By class, where the names say nothing.
+    // By class, if the names are not informative.
     let by_class = [("a", "level set"), ("b", "unknown"), ("c", fog)];
     assert_eq!(chosen(&by_class, GridRole::Density).unwrap().0, "c");
     assert_eq!(chosen(&by_class[..2], GridRole::Density).unwrap().0, "b");
@@ -231,7 +231,7 @@ fn what_is_no_density_is_refused_with_the_list_and_the_key() {
         assert!(error.contains("medium.density.grid"), "{error}");
         assert!(grids.iter().all(|(name, _)| error.contains(&format!("{name:?}"))), "{error}");
     }
-    // A vector grid is no density, whatever its class; asked for by name, it is read.
+    // A vector grid is not a density, whatever its class, but can be read by name.
     let vectors = TinyGrid { name: "smoke", values: "vec3s", ..TinyGrid::default() };
     let file = vdb(224, false, &[vectors]);
     assert!(read_vdb_bytes(&file, "a.vdb", None, &ReadLimits::default()).is_err());
@@ -255,7 +255,7 @@ fn a_temperature_is_never_a_density() {
     assert!(error.contains("medium.emission.temperature.grid"), "{error}");
 }
 
-/// The same bytes under another version number.
+/// The file with another version number.
 fn with_version(bytes: &[u8], version: u32) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     bytes[8..12].copy_from_slice(&version.to_le_bytes());
@@ -268,7 +268,7 @@ fn newer_file_versions_are_read_as_the_newest_known() {
     let mut compared = 0;
     for path in volumes::files(&volumes::fixtures()) {
         let bytes = std::fs::read(&path).unwrap();
-        // From 222 to 225 the layout of what these files hold is the same.
+        // The layout of these files is the same from version 222 to 225.
         if path.extension().is_none_or(|e| e != "vdb") || bytes[8] < 222 {
             continue;
         }
@@ -294,7 +294,7 @@ fn newer_file_versions_are_read_as_the_newest_known() {
         }
     }
     assert!(compared >= 8, "{compared} grids");
-    // What cannot be read in a newer file may be new: that is said.
+    // Errors in files of a newer version mention the version.
     let bytes = std::fs::read(volumes::fixtures().join("gaffer_sphere.vdb")).unwrap();
     let cut = with_version(&bytes[..bytes.len() - 100], 240);
     let error = read_vdb_bytes(&cut, "a.vdb", None, &limits).unwrap_err().to_string();

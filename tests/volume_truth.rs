@@ -1,7 +1,7 @@
 //! Every file of the ground truth (OpenVDB's own C++) is read exactly, or refused with a reason.
 //!
-//! Needs the folder of test volumes: `MAJORANT_VOLUMES=FOLDER cargo test`. The files
-//! that may be copied are tested without it, in `fixtures.rs`.
+//! Needs the folder of test volumes: `MAJORANT_VOLUMES=FOLDER cargo test`. Files that may be redistributed
+//! are tested without it, in `volume_files.rs`.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -23,7 +23,7 @@ fn every_file_is_exact_or_refused() {
     assert!(verdicts.len() > 60, "only {} grids", verdicts.len());
 }
 
-/// Files of other versions and compressions, made byte by byte from files of the ground truth.
+/// Files of other versions and compressions, converted from files of the ground truth.
 const REWRITES: [(&str, &str); 18] = [
     ("rw_f32_mask_v220_zip", "f32_bloscmask"),
     ("rw_f32_mask_v222", "f32_bloscmask"),

@@ -1,9 +1,9 @@
-//! `majorant bench` end to end.
+//! End-to-end tests of `majorant bench`.
 
 use super::{fails, succeeds};
 use serde_json::Value;
 
-/// A yardstick scene with its reference beside it, seen from the tests' own folder.
+/// Scene with a reference image in the same folder.
 const S3: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/oracle/S3/scene.toml");
 
 fn rows(arguments: &[&str]) -> Vec<Value> {
@@ -12,7 +12,7 @@ fn rows(arguments: &[&str]) -> Vec<Value> {
 
 #[test]
 fn bench_measures_every_estimator_against_the_reference_beside_the_scene() {
-    // Directions as in the papers: by their product, connections would do well here.
+    // Directions as in the papers: with product sampling, connections would be efficient here.
     let plain = ["--set", "estimator.light_sampling=emitter", "estimator.directions=phase"];
     let common = ["bench", S3, "--spp", "8", "--repeats", "3", "--threads", "2", "--json"];
     let rows = rows(&[&common[..], &plain].concat());
@@ -25,13 +25,13 @@ fn bench_measures_every_estimator_against_the_reference_beside_the_scene() {
             let (lo, hi) = (row[key]["lo"].as_f64().unwrap(), row[key]["hi"].as_f64());
             assert!(lo <= mean(row, key) && hi.is_none_or(|hi| mean(row, key) <= hi), "{key}: {row}");
         }
-        // What follows from the seed alone is the same everywhere; time is not looked at.
+        // Only numbers that depend on the seed alone are compared, not times.
         let lookups = row["lookups_per_path"].as_f64().unwrap();
         let unit = mean(row, "lookups_to_unit_error") / (mean(row, "relmse") * 8.0 * 128.0 * 128.0 * lookups);
         assert!((unit - 1.0).abs() < 0.05, "{row}");
     }
     let by_id = |id: &str| rows.iter().find(|r| r["estimator"] == id).unwrap();
-    // Seen against the light through sharp scattering, connections alone are hopeless.
+    // With back lighting and a sharp phase function, NEE alone has a large error.
     assert!(mean(by_id("nee"), "relmse") > 10.0 * mean(by_id("uni-nee-mis"), "relmse"));
     assert_eq!(mean(&rows[0], "speedup"), 1.0);
 }

@@ -1,10 +1,10 @@
-//! `majorant compare` end to end.
+//! End-to-end tests of `majorant compare`.
 
 use super::{fails, succeeds};
 use serde_json::Value;
 use std::path::Path;
 
-/// Three unbiased views of a cube in a white sky, and one whose majorant is clamped.
+/// Three unbiased views of a cube in a white environment, and one with a clamped majorant.
 const COMPARED: &str = "
 majorant = 1
 [film]
@@ -99,7 +99,7 @@ fn compare_ranks_and_finds_the_biased_view() {
     let document: Value = serde_json::from_str(&document).unwrap();
     assert_eq!(document["views"].as_array().unwrap(), &rows);
 
-    // A picture is repeated, bit by bit, by the command that the page shows.
+    // The command on the page reproduces the image bit by bit.
     let again = succeeds(&[
         "render",
         &path("report/scene.toml"),
@@ -118,7 +118,7 @@ fn compare_ranks_and_finds_the_biased_view() {
         ["B.exr", "report/B-nee.exr"].map(|n| majorant_core::io::picture::read(path(n).as_ref()).unwrap());
     assert_eq!(pictures[0].pixels, pictures[1].pixels);
 
-    // The table says the same in words.
+    // The table has the same verdicts.
     let table = succeeds(&["compare", &scene, "--spp", "64", "-o", &report]);
     assert!(table.contains("biased: ") && table.contains("the majorant is clamped"), "{table}");
     assert!(table.contains("A against mean of B, C"), "{table}");

@@ -1,4 +1,4 @@
-//! `majorant figures` end to end.
+//! End-to-end tests of `majorant figures`.
 
 use super::{fails, succeeds};
 use majorant_core::compare::report::words;
@@ -24,7 +24,7 @@ fn figures_write_pictures_numbers_and_a_conclusion_that_agrees_with_them() {
     assert_eq!(figures.len(), FIGURES.len());
     assert!(json["command"].as_str().unwrap().starts_with("majorant figures all -o "));
 
-    // Every panel has its files and its numbers.
+    // Every panel has its files and numbers.
     let mut panels = 0;
     for (figure, made) in FIGURES.iter().zip(figures) {
         assert!(dir.join(made["png"].as_str().unwrap()).metadata().unwrap().len() > 1000);
@@ -48,7 +48,7 @@ fn figures_write_pictures_numbers_and_a_conclusion_that_agrees_with_them() {
     assert_eq!(panels, 1 + 2 + 6 + 2);
     assert_eq!(read(&dir, "figures.csv").lines().count(), 1 + panels);
 
-    // The study's answers are ratios of its rows, and the conclusion says what they say.
+    // The study's answers are ratios of its rows, and the conclusion agrees with them.
     let conclusion: Vec<&str> =
         json["conclusion"].as_array().unwrap().iter().map(|p| p.as_str().unwrap()).collect();
     let studies = json["study"].as_array().unwrap();
@@ -66,7 +66,7 @@ fn figures_write_pictures_numbers_and_a_conclusion_that_agrees_with_them() {
                 row["efficiency"]["mean"].as_f64().unwrap()
             };
             let [mean, lo, hi] = ["mean", "lo", "hi"].map(|end| answer["ratio"][end].as_f64().unwrap());
-            // A pace is a mean over runs this short that the machine decides it; the table has the means of quotients.
+            // With runs this short, times are dominated by the machine; the table has the means of quotients.
             if answer["by"] == "efficiency" {
                 assert!(
                     (mean / (efficiency("variant") / efficiency("against")) - 1.0).abs() < 1e-9,
@@ -88,7 +88,7 @@ fn figures_write_pictures_numbers_and_a_conclusion_that_agrees_with_them() {
     let count = |key: &str| studies.iter().map(|s| s[key].as_array().unwrap().len()).sum::<usize>();
     assert_eq!((lines("study.csv"), lines("answers.csv")), (1 + count("rows"), 1 + count("answers")));
 
-    // The page needs nothing else, and no half-written file is left.
+    // The page loads no other file, and no partial file is left.
     assert!(page.matches("data:image/png;base64,").count() == 1 + 3 + 8 + 2);
     for loads in ["src=\"http", "href=\"http", "<script", "@import", "url("] {
         assert!(!page.contains(loads), "{loads}");
@@ -96,7 +96,7 @@ fn figures_write_pictures_numbers_and_a_conclusion_that_agrees_with_them() {
     let left = std::fs::read_dir(&dir).unwrap().map(|f| f.unwrap().file_name().into_string().unwrap());
     assert!(left.into_iter().all(|name| !name.ends_with(".part") && !name.starts_with('.')));
 
-    // A panel is repeated, bit by bit, from the scene that its EXR holds.
+    // The EXR of a panel contains its standard errors.
     let info: Value = serde_json::from_str(&succeeds(&[
         "info",
         dir.join("figure4-b-spectral-mis.exr").to_str().unwrap(),
@@ -138,7 +138,7 @@ fn figures_explain_mistakes() {
     let mask = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/volumes/t_mask.vdb");
     assert!(sentence(&["3", "--volume", mask]).contains("t_mask.vdb"));
     assert!(sentence(&["2", "--size", "0x0"]).contains("film"));
-    // Nothing was rendered or written before that was known.
+    // These errors were found before anything was written.
     assert!(!dir.exists());
     let nowhere = fails(&["figures", "4", "-o", "/proc/report"], 1);
     assert!(nowhere.contains("/proc/report") && nowhere.trim().lines().count() == 1, "{nowhere}");

@@ -1,11 +1,12 @@
-//! Files from outside, end to end: what was chosen or repaired is told, and the picture is that of the file it stands for.
+//! End-to-end tests of external files: choices and repairs are reported, and images match those of equivalent
+//! files.
 
 use crate::write::{TinyGrid, vdb};
 use crate::{fails, majorant, text};
 use serde_json::Value;
 use std::path::Path;
 
-/// Renders a scene of these lines; the JSON, and what was said beside it.
+/// Renders a scene with the given lines; returns the JSON and the text on stderr.
 fn rendered(folder: &Path, lines: &str) -> (Value, String) {
     let scene = folder.join("scene.toml");
     let head = "majorant = 1\n[film]\nwidth = 24\nheight = 16\n[estimator]\nmode = \"rgb\"\n";
@@ -22,7 +23,7 @@ fn info(file: &Path) -> Value {
     serde_json::from_str(&text(&output.stdout)).unwrap()
 }
 
-/// The notices in the JSON of a render, each of which was said on stderr, too.
+/// Returns the notices in the JSON of a render, each of which must be on stderr, too.
 fn notices((json, said): &(Value, String)) -> Vec<String> {
     let notices: Vec<String> =
         json["notices"].as_array().unwrap().iter().map(|n| n.as_str().unwrap().to_owned()).collect();
@@ -98,7 +99,7 @@ fn the_density_is_chosen_by_name_and_told() {
     assert!(described["notices"][0].as_str().unwrap().contains("Density"), "{described}");
     assert_eq!(described["grids"].as_array().unwrap().len(), 2);
 
-    // Only a temperature: refused, until it is asked for.
+    // A file with only a temperature is refused unless the grid is named.
     assert!(info(&hot).get("density").is_none());
     std::fs::write(folder.path().join("hot.toml"), format!("majorant = 1\n{}", scene("hot.vdb"))).unwrap();
     let file = folder.path().join("hot.toml").display().to_string();

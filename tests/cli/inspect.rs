@@ -1,4 +1,4 @@
-//! `majorant path` and `majorant contributions`.
+//! End-to-end tests of `majorant path` and `majorant contributions`.
 
 use super::{fails, succeeds};
 use serde_json::Value;
@@ -8,7 +8,7 @@ fn json(arguments: &[&str]) -> Value {
 }
 
 #[test]
-fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
+fn a_path_is_printed_with_its_weights_and_sums_to_its_sample() {
     let path = ["path", "plume-spectral", "--pixel", "256,300", "--estimator", "uni-nee-mis"];
     let table = succeeds(&path);
     for word in ["leaves the camera", "light is added", "by definition", "on the film", "nm, the hero first"]
@@ -26,7 +26,7 @@ fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
     for (sum, told) in sum.iter().zip(json["sum"].as_array().unwrap()) {
         assert_eq!(f64::from(*sum), told.as_f64().unwrap());
     }
-    // What is kept at an event is what the definition says after it: the ratios of both agree at every row.
+    // The estimator's path weights agree with their definition: p_nee / p_uni is the same in every row.
     let lanes =
         |value: &Value| value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect::<Vec<_>>();
     let (mut held, mut turned) = (0, false);
@@ -59,7 +59,7 @@ fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
         }
     }
     assert!(held >= 8, "{held}");
-    // The brightest of the first 64, which is what any other of them is not.
+    // By default the brightest of the first 64 samples is replayed.
     let film =
         |json: &Value| json["film"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).sum::<f64>();
     let first = self::json(&[&path[..], &["--sample", "0", "--json"]].concat());
@@ -67,7 +67,7 @@ fn a_path_is_printed_with_its_books_and_sums_to_its_sample() {
 }
 
 #[test]
-fn an_image_is_taken_apart_into_files_and_numbers() {
+fn contributions_are_written_as_files_and_numbers() {
     let directory = tempfile::tempdir().unwrap();
     let out = directory.path().to_str().unwrap();
     let small = ["--set", "film.width=32", "film.height=24", "--spp", "8"];
@@ -87,7 +87,7 @@ fn an_image_is_taken_apart_into_files_and_numbers() {
 }
 
 #[test]
-fn what_cannot_be_taken_apart_is_explained() {
+fn mistakes_in_paths_and_contributions_are_explained() {
     let outside = fails(&["path", "first-light", "--pixel", "9999,0"], 1);
     assert!(outside.contains("outside of the image"), "{outside}");
     assert!(fails(&["path", "first-light", "--pixel", "7"], 2).contains("COLUMN,ROW"));
@@ -95,7 +95,7 @@ fn what_cannot_be_taken_apart_is_explained() {
     assert!(fails(&["parts", "first-light", "--estimator", "magic"], 1).contains("not an estimator"));
 }
 
-/// Majorants that rise while a film is rendered have risen for its replayed path and for its parts as well.
+/// Contributions are traced with the progressive majorants of the film.
 #[test]
 fn rising_majorants_are_those_of_the_film() {
     let keys = [

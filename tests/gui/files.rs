@@ -1,4 +1,4 @@
-//! Files in the window: opening, saving, dropping, and what happens when they are bad.
+//! Files in the window: opening, saving, dropping, and errors.
 
 use super::harness::{click, doc, drop_file, lab, lab_on, open, undo, wait};
 use egui::accesskit::Role;
@@ -179,7 +179,7 @@ fn the_grid_that_was_chosen_is_told() {
     lab.run_steps(6);
     assert!(lab.query_by_value("by default: Density").is_some());
 
-    // A file without a density is refused as a whole.
+    // A file without a density is refused, and nothing changes.
     let before = doc(&lab).clone();
     let path = directory.path().join("hot.vdb");
     std::fs::write(&path, vdb(224, false, &[grid("temperature")])).expect("a file");

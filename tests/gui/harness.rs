@@ -1,4 +1,4 @@
-//! The window without a display, and what every test of it needs.
+//! The window without a display, and helpers for its tests.
 
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
@@ -22,7 +22,7 @@ lights = [{ kind = "environment" }]
 render = { spp = 4 }
 "#;
 
-/// The window on a small scene in a file of its own.
+/// Opens the window with a small scene in a temporary file.
 pub fn lab() -> (Lab, tempfile::TempDir) {
     let directory = tempfile::tempdir().expect("a temporary directory");
     let path = directory.path().join("test.toml");
@@ -33,7 +33,7 @@ pub fn lab() -> (Lab, tempfile::TempDir) {
 pub fn lab_on(source: Source) -> Lab {
     let options = LabOptions { open: Some(source), native_dialogs: false, ..LabOptions::default() };
     let mut lab = Harness::builder()
-        // High enough that no panel has to be scrolled to.
+        // High enough to show all panels without scrolling.
         .with_size(vec2(1600.0, 3600.0))
         .with_step_dt(1.0 / 60.0)
         .build_eframe(move |cc| LabApp::new(cc, &options).expect("threads"));
@@ -41,10 +41,10 @@ pub fn lab_on(source: Source) -> Lab {
     lab
 }
 
-/// So long that only what hangs is called late, even where many tests share two slow cores.
+/// Time limit for waiting, long enough when many tests share two slow cores.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Steps until something is true; the session works on threads of its own.
+/// Steps until a condition holds; the session works on other threads.
 pub fn wait(lab: &mut Lab, what: &str, done: impl Fn(&LabApp) -> bool) {
     let deadline = Instant::now() + PATIENCE;
     while !done(lab.state()) {
@@ -59,12 +59,12 @@ pub fn click(lab: &mut Lab, role: Role, label: &str) {
     lab.run_steps(3);
 }
 
-/// Opens a panel that starts closed.
+/// Opens a panel if it is closed.
 pub fn open(lab: &mut Lab, title: &str) {
     let header = lab.get_by_role_and_label(Role::DisclosureTriangle, title);
     if header.accesskit_node().data().is_expanded() != Some(true) {
         click(lab, Role::DisclosureTriangle, title);
-        // Opening is animated.
+        // The opening is animated.
         lab.run_steps(12);
     }
 }

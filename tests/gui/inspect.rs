@@ -1,4 +1,4 @@
-//! What a path, a ray and an image's parts are shown to be, and that it is that.
+//! Tabs for paths, rays, contributions and noise, compared with direct computations.
 
 use super::harness::{Lab, click, doc, lab, open, wait};
 use egui::Key;
@@ -11,7 +11,7 @@ use majorant_core::compare::Verdict;
 use majorant_core::scene::{Absorption, Fault};
 use majorant_core::session::Status;
 
-/// A finished picture with one of its pixels picked, under a tab.
+/// Opens a finished image with a picked pixel and a tab.
 fn picked(tab: &'static str) -> (Lab, tempfile::TempDir) {
     let (mut lab, directory) = lab();
     wait(&mut lab, "finishing", |app| app.state().status == Status::Finished);
@@ -33,7 +33,7 @@ fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
     wait(&mut lab, "the samples", |app| app.inspector().path.sample.is_some());
     replayed(&mut lab, "the path");
     lab.check_accessibility();
-    // The brightest of four, and what the film has of it.
+    // The brightest of four samples is chosen.
     let probe = lab.state().state().probe.clone().expect("a probe");
     let samples = probe.samples((16, 9), 0..4, majorant_core::transport::CancelToken::NEVER);
     let grey = |i: u64| samples[i as usize].rgb.iter().sum::<f32>();
@@ -41,11 +41,11 @@ fn a_pixels_paths_are_listed_replayed_and_stepped_through() {
     assert!((0..4).all(|i| grey(i) <= grey(chosen)), "{chosen} of {samples:?}");
     click(&mut lab, Role::Button, "Next event");
     assert_eq!(lab.state().inspector().path.step, 1);
-    // The chosen event's books, at every component.
+    // The path weights of the selected event are shown for every component.
     for name in ["f", "p uni", "p nee", "majorant"] {
         assert!(lab.query_all_by_label(name).next().is_some(), "{name}");
     }
-    // Keys go through the events, and do nothing else.
+    // The keys step through the events and have no other effect.
     for (key, step) in [(Key::CloseBracket, 2), (Key::CloseBracket, 3), (Key::OpenBracket, 2)] {
         lab.key_press(key);
         lab.run_steps(2);
@@ -99,14 +99,14 @@ fn a_ray_is_measured_through_the_medium_and_through_shapes() {
 }
 
 #[test]
-fn an_image_is_taken_apart_every_way() {
+fn an_image_is_split_into_contributions_in_every_way() {
     let (mut lab, _directory) = picked("parts");
     for split in ["technique", "scattering order", "null collisions", "hero"] {
         click(&mut lab, Role::Button, &format!("By {split}"));
         lab.run_steps(2);
-        wait(&mut lab, "the parts", |app| !app.inspector().parts.query.is_running());
+        wait(&mut lab, "the contributions", |app| !app.inspector().parts.query.is_running());
         lab.run_steps(3);
-        let parts = lab.state().inspector().parts.hung_of.clone().expect("parts");
+        let parts = lab.state().inspector().parts.hung_of.clone().expect("contributions");
         assert_eq!(parts.split.name(), split);
         assert!(!parts.layers.is_empty());
         lab.check_accessibility();
@@ -118,7 +118,7 @@ fn an_image_is_taken_apart_every_way() {
 }
 
 #[test]
-fn noise_is_explained_and_the_advice_is_tried_beside() {
+fn noise_is_analysed_and_a_suggestion_adds_a_view() {
     let (mut lab, _directory) = picked("noise");
     click(&mut lab, Role::Button, "Absorption: Analogue");
     wait(&mut lab, "the new picture", |app| app.state().status == Status::Finished);
@@ -126,8 +126,8 @@ fn noise_is_explained_and_the_advice_is_tried_beside() {
     wait(&mut lab, "the evidence", |app| !app.inspector().noise.is_running());
     lab.run_steps(3);
     lab.check_accessibility();
-    assert!(lab.query_by_label_contains("absorption ends paths").is_some());
-    // The samples that weigh most are named, and can be replayed.
+    assert!(lab.query_by_label_contains("absorption is sampled as an event").is_some());
+    // The samples with the largest contributions are listed, and can be replayed.
     let heaviest = {
         let evidence = lab.state().inspector().noise.newest().expect("evidence");
         evidence.heaviest.named.first().expect("a sample").at
@@ -159,7 +159,7 @@ fn a_fault_is_announced_compared_with_the_correct_image_and_found() {
     let (mut lab, _directory) = lab();
     open(&mut lab, "What goes wrong");
     let choose = |lab: &mut Lab, name: &str| {
-        // What is said of the last one moves the panels.
+        // The message about the previous fault moves the panels.
         wait(lab, "the picture", |app| app.state().status == Status::Finished);
         lab.run_steps(12);
         click(lab, Role::RadioButton, name);
@@ -178,7 +178,7 @@ fn a_fault_is_announced_compared_with_the_correct_image_and_found() {
     let right = Fault::None;
     let expected = [("uni-nee-mis", Fault::PhaseInBoth), ("uni-nee-mis", right), ("nee", right)];
     assert_eq!(ids, expected.map(|(id, fault)| (id.to_owned(), fault)));
-    // The limit of four samples is raised until nobody can doubt it.
+    // The limit of four samples is raised until the verdict is significant.
     let mut longer = doc(&lab).clone();
     longer.render.spp = Some(256);
     lab.state_mut().request(Command::Edit(Box::new(longer)));

@@ -1,4 +1,4 @@
-//! The axes of an estimate, and what the lab measures about them.
+//! Settings of the estimator, and the measurement of the majorant factor.
 
 use super::harness::{click, doc, lab, open, wait};
 use egui::accesskit::Role;
@@ -69,7 +69,7 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     let (mut lab, _directory) = lab();
     open(&mut lab, "Majorant");
     open(&mut lab, "Cost and bias by factor");
-    // Thin, so that its many paths are short.
+    // A thin medium, so that the many paths are short.
     let mut thin = doc(&lab).clone();
     thin.medium.scale = 0.02;
     lab.state_mut().request(Command::Edit(Box::new(thin)));
@@ -85,10 +85,10 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     click(&mut lab, Role::Button, "Absorption: Analogue");
     assert!(!lab.state().factor_curve().is_of(doc(&lab)));
 
-    // A black picture has no relative noise; that is said instead of drawn.
+    // A black image has no relative noise: a message replaces the plot.
     let black = SceneDoc { lights: Vec::new(), ..doc(&lab).clone() };
     lab.state_mut().request(Command::Edit(Box::new(black)));
-    // What is said of it moves the panels; a button that moves is missed.
+    // The notice moves the panels; a click on a moving button would miss.
     wait(&mut lab, "the notice", |app| !app.state().notices.is_empty());
     lab.run_steps(12);
     click(&mut lab, Role::Button, "Measure");

@@ -1,4 +1,4 @@
-//! Lessons, read from the first page to the last without a mouse.
+//! Lessons, from the first step to the last by keyboard.
 
 use super::harness::{Lab, doc, lab, wait};
 use egui::Key;
@@ -7,7 +7,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use majorant::lessons::embedded;
 use majorant::model::Command;
 
-/// Moves the focus with Tab from the first choice to one, and takes that with the space bar.
+/// Moves the focus with Tab from the first answer to the one with a label, and chooses it with Space.
 fn choose(lab: &mut Lab, label: &str) {
     for _ in 0..6 {
         if lab.get_by_role_and_label(Role::RadioButton, label).accesskit_node().is_focused() {
@@ -32,7 +32,7 @@ fn every_lesson_is_played_through_by_keyboard() {
             let player = lab.state().lesson().unwrap_or_else(|| panic!("{what} is not open"));
             assert_eq!((player.lesson.id.as_str(), player.step), (lesson.id.as_str(), i), "{what}");
             assert_eq!(*doc(&lab), lesson.scene_at(i).expect("a scene"), "{what}");
-            assert!(!lab.state().is_modified(), "{what}: nothing of a lesson is an unsaved change");
+            assert!(!lab.state().is_modified(), "{what}: a lesson makes no unsaved change");
             lab.check_accessibility();
             if let Some(right) = step.stop.choices.get(step.stop.right) {
                 lab.key_press(Key::PageDown);
@@ -49,18 +49,18 @@ fn every_lesson_is_played_through_by_keyboard() {
 }
 
 #[test]
-fn equations_are_set_and_told_to_who_cannot_see_them() {
+fn equations_are_set_and_have_their_tex_as_accessible_name() {
     let (mut lab, _directory) = lab();
     lab.state_mut().request(Command::OpenLesson(embedded()[1].id.clone()));
     lab.run_steps(3);
     let shown = |tex: &str| lab.query_all_by_role_and_label(Role::Image, tex).count();
-    assert!(shown(r"\bar\mu") >= 2, "within sentences");
+    assert!(shown(r"\bar\mu") >= 2, "inline equations");
     assert_eq!(
         lab.query_all_by_role(Role::Image)
             .filter(|node| node.accesskit_node().label().is_some_and(|tex| tex.starts_with(r"t = -\frac")))
             .count(),
         1,
-        "on a line of its own"
+        "one display equation"
     );
 }
 

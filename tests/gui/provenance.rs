@@ -1,4 +1,4 @@
-//! Numbers are shown only with the pictures that they describe: whatever is edited, at every frame.
+//! Statistics are shown only with the images that they describe, in every frame and after any edit.
 
 use super::harness::{Lab, click, doc, lab, lab_on, open, undo, wait};
 use egui::Key;
@@ -14,7 +14,7 @@ use majorant_core::scene::{Fault, ReferenceDoc, SceneDoc};
 use majorant_core::session::Status;
 use majorant_core::transport::CancelToken;
 
-/// Two views of a grey cube that agree, and soon.
+/// Two views of a grey cube that agree after few samples.
 const PAIR: &str = r#"
 majorant = 1
 film = { width = 32, height = 18 }
@@ -59,30 +59,30 @@ fn decided(app: &LabApp, views: usize) -> bool {
     standings.len() == views && standings.iter().all(|s| s.verdict() == Verdict::Agrees)
 }
 
-/// What must hold at every frame, told from the document and the session alone.
+/// Invariants of every frame, derived from the document and the session alone.
 fn assert_current(app: &LabApp) {
     let wall = app.wall();
     for standing in &wall.analysis().standings {
         let view = (0..wall.slots().len()).find(|v| label(*v) == standing.label).expect("a view");
         let expected = app.doc().view_doc(view).expect("its document");
         assert_eq!(standing.estimator, expected.estimator.id, "view {}", standing.label);
-        let picture = wall.slots()[view].picture().expect("a picture of what was submitted last");
+        let picture = wall.slots()[view].picture().expect("an image of the last submission");
         assert!(standing.spp <= picture.spp, "{} samples of {}", standing.spp, picture.spp);
         let uploaded = wall.uploaded(PictureId::View(view)).and_then(|h| h.snapshot.as_ref());
-        assert!(uploaded.is_none_or(|h| h.generation == picture.generation), "an older picture hangs");
+        assert!(uploaded.is_none_or(|h| h.generation == picture.generation), "an older image is shown");
         if let ComparedWith::Others(others) = &standing.against {
             for other in others.split(", ") {
-                assert!(wall.analysis().standing(other).is_some(), "{other} has no numbers of its own");
+                assert!(wall.analysis().standing(other).is_some(), "{other} has no statistics");
             }
         }
     }
     let reference = wall.uploaded(PictureId::Reference).and_then(|h| h.reference.as_ref());
     if let (Some(shown), Some(slot)) = (reference.and_then(|r| r.snapshot()), wall.rendered_reference()) {
-        assert_eq!(shown.generation, slot.state.generation, "the reference's picture is an older one's");
+        assert_eq!(shown.generation, slot.state.generation, "an older reference is shown");
     }
 }
 
-/// Steps until something is true, and looks at every frame.
+/// Steps until a condition holds, and checks the invariants in every frame.
 fn watch(lab: &mut Lab, what: &str, done: impl Fn(&LabApp) -> bool) {
     wait(lab, what, |app| {
         assert_current(app);
@@ -95,36 +95,36 @@ fn a_verdict_goes_in_the_frame_in_which_its_view_is_edited() {
     let (mut lab, _directory) = pair();
     watch(&mut lab, "the verdict", |app| finished(app) && decided(app, 2));
     lab.run_steps(2);
-    // In both captions and in both rows of the ranking.
+    // Once in each caption and each row of the ranking.
     assert!(labels(&lab, "agrees") >= 4);
     let before = lab.state().wall().slots()[0].state.generation;
     edit(&mut lab, |doc| doc.estimator.fault = Fault::HeroProbability);
     lab.step();
     let now = lab.state().wall().slots()[0].state.generation;
     assert!(now > before);
-    // In this very frame; B was held against A, and A is another.
-    assert_eq!(labels(&lab, "agree"), 0, "a verdict on what is not rendered any more");
+    // In the same frame: B was compared with A, which has changed.
+    assert_eq!(labels(&lab, "agree"), 0, "the verdict of an older submission");
     let new = |app: &LabApp| app.wall().analysis().standings.iter().any(|s| s.label == "A");
-    assert!(!new(lab.state()), "numbers of what is not rendered any more");
+    assert!(!new(lab.state()), "statistics of an older submission");
     while !new(lab.state()) {
-        assert_eq!(labels(&lab, "agree"), 0, "a verdict on what is not rendered any more");
+        assert_eq!(labels(&lab, "agree"), 0, "the verdict of an older submission");
         assert_current(lab.state());
         lab.step();
     }
-    // Back again: the verdict comes back with a picture, not before.
+    // After undo: the verdict returns with a new image, not before.
     undo(&mut lab);
     assert_eq!(doc(&lab).estimator.fault, Fault::None);
     watch(&mut lab, "the verdict again", |app| decided(app, 2));
 }
 
 #[test]
-fn numbers_follow_their_views_through_every_edit_of_the_wall() {
+fn numbers_follow_their_views_through_every_edit_of_the_comparison() {
     let (mut lab, _directory) = lab();
     wall(&mut lab, WallEdit::Count(4));
     wall(&mut lab, WallEdit::Reference(ReferenceDoc::Pooled));
     let all = |app: &LabApp| app.wall().analysis().standings.len() == app.doc().view_count();
     watch(&mut lab, "numbers of four", all);
-    // One look at a single view, and four others since.
+    // A single view, then four views with other settings.
     wall(&mut lab, WallEdit::Count(1));
     lab.step();
     assert_current(lab.state());
@@ -169,8 +169,10 @@ fn paused_are_all_views_and_the_reference_those_that_come_later_too() {
     lab.key_press(Key::P);
     lab.run_steps(2);
     assert!(lab.state().wall().is_paused());
+    watch(&mut lab, "the pause", |app| app.state().status == Status::Paused);
+    lab.run_steps(2);
     lab.get_by_label_contains("Paused at");
-    // Other views, a reference, an edit of the scene, another scene: nothing of it gets a sample.
+    // New views, a reference and an edit of the scene get no samples.
     wall(&mut lab, WallEdit::Count(4));
     wall(&mut lab, WallEdit::Reference(rendered()));
     edit(&mut lab, |doc| doc.medium.scale = 2.0);
@@ -186,7 +188,7 @@ fn paused_are_all_views_and_the_reference_those_that_come_later_too() {
     std::thread::sleep(std::time::Duration::from_millis(100));
     lab.run_steps(3);
     assert!(still(lab.state()));
-    // A step is one of each.
+    // A step renders one sample of each.
     click(&mut lab, Role::Button, "Step");
     let each = |app: &LabApp, spp: u64| {
         let slots = app.wall().slots().iter().chain(app.wall().rendered_reference());
@@ -221,7 +223,7 @@ fn without_a_reference_variance_and_efficiency_stand_where_errors_would() {
     lab.get_by_label_contains(
         "No reference, no errors. Verdicts: against the mean of the other unbiased views.",
     );
-    // No map of errors either, but one of z.
+    // There is no map of errors either, but one of z.
     wall(&mut lab, WallEdit::Layer("relative".into()));
     watch(&mut lab, "no map", |app| app.wall().uploaded(PictureId::View(0)).is_none());
     lab.step();
@@ -231,7 +233,8 @@ fn without_a_reference_variance_and_efficiency_stand_where_errors_would() {
         app.wall().uploaded(PictureId::View(0)).is_some_and(|h| h.map.is_some())
     });
     wall(&mut lab, WallEdit::Layer("picture".into()));
-    // The others as the reference are named so; their noise is taken off, and is part of the ±.
+    // The mean of the other views is named as the reference; errors are corrected for its noise, and their ±
+    // includes it.
     lab.run_steps(2);
     click(&mut lab, Role::Button, "Reference");
     click(&mut lab, Role::RadioButton, "The mean of the other unbiased views");
@@ -259,7 +262,7 @@ fn nothing_is_measured_against_a_picture_without_samples() {
     watch(&mut lab, "the reference", |app| reference(app) == Some(Status::Paused));
     std::thread::sleep(std::time::Duration::from_millis(400));
     lab.run_steps(3);
-    // Its place is there, its numbers are not.
+    // The cell of the reference is shown, statistics are not.
     assert!(lab.state().wall().pictures_shown().contains(&PictureId::Reference));
     lab.get_by_label_contains("No reference yet");
     assert_eq!((labels(&lab, " 0 spp"), labels(&lab, "relMSE ")), (0, 0));
@@ -275,14 +278,14 @@ fn nothing_is_measured_against_a_picture_without_samples() {
             && shown.is_some_and(|r| r.origin == "Uni+NEE MIS, 400 spp")
     });
     lab.run_steps(2);
-    // The tile, the button and the foot of the table tell one number; every error has its ±.
+    // Caption, button and footnote of the table show the same number; every error has its ±.
     assert!(labels(&lab, "Uni+NEE MIS, 400 spp") >= 2);
     for s in &lab.state().wall().analysis().standings {
         let error = s.error("relmse").expect("an error");
         let text = majorant_core::compare::report::words::quantity(error.corrected(), error.uncertainty());
         assert!(text.contains('±') && labels(&lab, &text) >= 2, "{text}");
     }
-    // An edit of the scene starts the reference over: its old picture and its numbers go at once.
+    // An edit of the scene restarts the reference: its old image and its statistics disappear at once.
     edit(&mut lab, |doc| doc.medium.scale = 1.5);
     lab.step();
     assert_current(lab.state());
@@ -310,7 +313,7 @@ fn no_view_shares_random_numbers_with_the_reference() {
         let standings = &app.wall().analysis().standings;
         standings.len() == 2 && standings.iter().all(|s| matches!(s.against, ComparedWith::Reference(_)))
     });
-    // A view that is the reference has another: the one that shares it is not held against it.
+    // A view with the seed of the view that is the reference is not compared with it.
     edit(&mut lab, |doc| doc.compare.views[0].seed = first);
     wall(&mut lab, WallEdit::Reference(ReferenceDoc::View { view: 0 }));
     watch(&mut lab, "the refusal", |app| {
@@ -330,7 +333,7 @@ fn a_path_is_that_of_the_scene_as_it_is_now() {
     let mut before = String::new();
     for scale in [1.0, 0.3, 2.0, 0.1] {
         edit(&mut lab, |doc| doc.medium.scale = scale);
-        // Every frame may ask for the path, from the first on.
+        // The path may be requested in every frame, including the first.
         lab.step();
         assert!(before.is_empty() || labels(&lab, &before) == 0, "the path of scale {scale} is another");
         wait(&mut lab, "the picture", finished);
@@ -364,7 +367,7 @@ fn all_four_limits_are_shown_and_edited() {
     );
     lab.get_by_label_contains("Stops at 4 spp, 60 s, 30 s of CPU time or an error of 25 %");
     lab.check_accessibility();
-    // One of the two that used to be hidden is the only one, and ends the render.
+    // The relative error is the only limit, and ends the render.
     for name in ["Stop at", "Stop after", "CPU time"] {
         click(&mut lab, Role::CheckBox, &format!("{name} on"));
     }

@@ -1,4 +1,4 @@
-//! *Help ▸ Self-check*.
+//! The dialog *Help ▸ Self-check*.
 
 use super::harness::{Lab, click, doc, lab, lab_on, wait};
 use egui::accesskit::Role;
@@ -27,7 +27,7 @@ fn this_scene_is_checked_estimator_against_estimator() {
     wait(&mut lab, "the check", |app| app.self_check().ending().is_some());
     let check = lab.state().self_check();
     assert!(matches!(check.ending(), Some(Ending::Finished(_))), "{:?}", check.ending());
-    // The older baseline has no finite variance in a uniform medium of this colour.
+    // Mitsuba 2's volpath has infinite variance in a homogeneous medium of this colour.
     let all = REGISTRY.len() - 1;
     assert_eq!(check.rows().len(), all);
     assert!(check.rows().iter().all(|row| row.verdict == Verdict::Agrees), "{:?}", check.rows());
@@ -36,7 +36,7 @@ fn this_scene_is_checked_estimator_against_estimator() {
     lab.check_accessibility();
     click(&mut lab, Role::Button, "Close");
     assert!(!lab.state().self_check().open);
-    // Opened again it is as it was; once the scene is another, what was found is not about it.
+    // The results are kept when the dialog is opened again, and cleared when the scene has changed.
     opened(&mut lab);
     assert_eq!(lab.state().self_check().rows().len(), all);
     click(&mut lab, Role::Button, "Close");

@@ -1,4 +1,4 @@
-//! What makes it faster, and what shows how fast it is.
+//! Settings that affect speed, and the display of latencies.
 
 use super::harness::{click, doc, lab_on, open, wait};
 use egui::Key;
@@ -18,7 +18,11 @@ fn majorant_cells_are_chosen_counted_and_shown() {
     let automatic = cells(lab.state()).expect("a grid");
     assert!(automatic > 1);
     click(&mut lab, Role::CheckBox, "Resolution on");
-    assert_eq!(doc(&lab).medium.majorant.resolution, Some(automatic as u32), "it starts where it was");
+    assert_eq!(
+        doc(&lab).medium.majorant.resolution,
+        Some(automatic as u32),
+        "it starts at the automatic resolution"
+    );
     let lookups = |app: &majorant::lab::LabApp| {
         app.shown().map_or(0.0, |s| s.tally.lookups as f64 / s.tally.paths as f64)
     };
@@ -76,7 +80,7 @@ fn samples_directions_and_storage_are_chosen_by_name() {
 }
 
 #[test]
-fn the_lab_measures_how_soon_it_answers() {
+fn latency_is_measured_and_shown() {
     let mut lab = lab_on(Source::first());
     wait(&mut lab, "a first picture", |app| app.shown().is_some());
     for i in 1..=3_u8 {

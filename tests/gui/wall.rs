@@ -1,4 +1,4 @@
-//! The wall of views: what is clicked ends up in the document, in the session, and on the screen.
+//! Comparison of views: clicks change the document, the session and the images shown.
 
 use super::harness::{Lab, click, doc, drag, drop_file, lab, lab_on, undo, wait};
 use egui::accesskit::Role;
@@ -54,7 +54,7 @@ fn views_come_and_go_and_each_has_its_own_estimator() {
     assert_eq!(ids(&lab), ["uni-nee-mis", "independent", "spectral-mis"]);
     finished(&mut lab);
     lab.check_accessibility();
-    // The method column edits the view that was clicked, and no other.
+    // The method column edits only the clicked view.
     let at = lab.get_by_label("View C").rect().center();
     drag(&mut lab, at, at, PointerButton::Primary, Modifiers::NONE);
     lab.run_steps(2);
@@ -66,13 +66,13 @@ fn views_come_and_go_and_each_has_its_own_estimator() {
     assert_eq!(ids(&lab), ["uni-nee-mis", "independent", "nee"]);
     lab.step();
     let after = generations(&lab);
-    assert_eq!((before[0], before[1]), (after[0], after[1]), "the other views go on");
+    assert_eq!((before[0], before[1]), (after[0], after[1]), "the other views continue");
     assert!(after[2] > before[2]);
     click(&mut lab, Role::Button, "Menu of view A");
     click(&mut lab, Role::Button, "Remove");
     assert_eq!(ids(&lab), ["independent", "nee"]);
     lab.step();
-    assert_eq!(generations(&lab), after[1..], "views that move up go on");
+    assert_eq!(generations(&lab), after[1..], "views that move up continue");
     undo(&mut lab);
     assert_eq!(ids(&lab), ["uni-nee-mis", "independent", "nee"]);
     click(&mut lab, Role::Button, "1 views");
@@ -96,7 +96,7 @@ fn keys_arrange_the_views() {
         lab.run_steps(2);
         assert_eq!(arrangement(&lab), expected);
     }
-    // Tab goes on to the next view, which the method column follows.
+    // Tab selects the next view, which the method column edits.
     assert_eq!(lab.state().wall().selected(), 0);
     lab.key_press(Key::Tab);
     lab.run_steps(2);
@@ -169,7 +169,7 @@ fn a_box_is_drawn_and_cleared_and_numbers_are_about_it() {
     });
     click(&mut lab, Role::Button, "Clear the box");
     assert_eq!(doc(&lab).compare.region, None);
-    // With the tool, a plain drag draws; the camera stays.
+    // With the box tool, a drag draws the box and does not move the camera.
     lab.key_press(Key::B);
     lab.run_steps(2);
     let camera = doc(&lab).camera.clone();
@@ -192,7 +192,7 @@ fn every_tab_shows_its_numbers_and_copies_them() {
             .as_ref()
             .is_some_and(|(_, v)| v.len() == 3 && v.iter().all(|s| s.samples.len() == 400))
     });
-    // Traced again, the samples have the mean that the picture has.
+    // The mean of the retraced samples equals that of the image.
     let (pixel, samples) = lab.state().wall().analysis().pixel.clone().expect("samples");
     for view in &samples {
         let slot = &lab.state().wall().slots()[view.view];
@@ -224,10 +224,10 @@ fn a_reference_is_rendered_beside_the_views_and_carries_its_noise() {
             .iter()
             .any(|s| matches!(s.against, ComparedWith::Reference(_)) && s.error("relmse").is_some())
     });
-    assert!(lab.state().wall().uploaded(PictureId::Reference).is_some());
+    wait(&mut lab, "the reference", |app| app.wall().uploaded(PictureId::Reference).is_some());
 }
 
-/// Renders a scene and writes it where the window can find it.
+/// Renders a scene and writes the image to a file.
 fn rendered(doc: &SceneDoc, path: &std::path::Path) {
     let (wake, woken) = std::sync::mpsc::channel();
     let session = Session::new(Library::default(), move || wake.send(()).unwrap_or(())).expect("threads");
@@ -253,7 +253,7 @@ fn a_dropped_render_is_the_reference_until_the_scene_changes() {
         app.wall().analysis().standings.iter().any(|s| matches!(s.against, ComparedWith::Reference(_)))
     });
     assert_eq!(lab.state().wall().reference_state().problem, None);
-    // Another scene: it must not be used any more.
+    // The scene has changed: the file must not be used.
     let mut edited = doc(&lab).clone();
     edited.medium.scale = 2.0;
     lab.state_mut().request(Command::Edit(Box::new(edited)));
@@ -266,7 +266,7 @@ fn a_dropped_render_is_the_reference_until_the_scene_changes() {
 }
 
 #[test]
-fn the_wall_is_saved_with_the_scene() {
+fn the_comparison_is_saved_with_the_scene() {
     let (mut lab, directory) = biased();
     lab.key_press(Key::W);
     lab.run_steps(2);
@@ -294,7 +294,7 @@ fn a_report_is_written_from_the_window() {
     let text = std::fs::read_to_string(page).expect("a page");
     assert!(text.contains("the majorant is clamped"));
     assert!(folder.join("compare.exr").exists() && folder.join("ranking.csv").exists());
-    // A folder that cannot be made is a message, and nothing else.
+    // A folder that cannot be created only causes a message.
     let blocked = directory.path().join("biased.toml").join("report");
     lab.state_mut().request(Command::Chosen(majorant::model::Purpose::ExportReport, blocked));
     wait(&mut lab, "the refusal", |app| {

@@ -1,27 +1,28 @@
-//! χ² tests: whether samples follow the density that they claim.
+//! χ² tests of samples against their probability density.
 //!
-//! A family of `n` tests is judged together: each may be as unlikely as Šidák's correction leaves it,
+//! A family of `n` tests is judged together, with Šidák's correction: the significance level of each is
 //! 1 − (1 − α)^(1/n). Seeds are fixed, so that on one machine a test passes always or never.
 
 mod directions;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-/// False alarms per family and choice of seeds; ten families in a file stay below 10⁻⁵.
+/// Probability of a false positive per family and choice of seeds; ten families in a file stay below 10⁻⁵.
 pub const ALPHA: f64 = 1e-6;
 
-/// Bins that expect fewer samples are merged: below, the counts are too far from normal.
+/// Minimum expected count of a bin; bins with less are merged, because their counts are not normally
+/// distributed.
 const FEWEST: f64 = 20.0;
 
-/// Tests that are judged together.
+/// A family of tests that is judged together.
 #[derive(Default)]
 pub struct Family {
-    /// What was tested, how it came out, and how likely that or worse is by chance.
+    /// Name, result and p-value of each test.
     tests: Vec<(String, String, f64)>,
 }
 
 impl Family {
-    /// Observed counts against the shares that they should have, which add up to one.
+    /// Tests observed counts against expected shares, which add up to one.
     pub fn counts(&mut self, name: &str, observed: &[u64], shares: &[f64]) {
         let total: f64 = shares.iter().sum();
         assert!((total - 1.0).abs() < 1e-9, "{name}: the shares add up to {total}");
@@ -31,7 +32,7 @@ impl Family {
         self.chi2(name, observed, shares);
     }
 
-    /// Numbers that should be uniform over 0 to 1: samples under their cumulative distribution.
+    /// Tests numbers for uniformity over 0 to 1: samples mapped by their cumulative distribution.
     pub fn uniform(&mut self, name: &str, values: impl IntoIterator<Item = f64>) {
         const BINS: usize = 100;
         let mut observed = [0; BINS];
@@ -42,7 +43,7 @@ impl Family {
         self.chi2(name, &observed, &[1.0 / BINS as f64; BINS]);
     }
 
-    /// The mean of independent numbers, by Student's t-test.
+    /// Tests the mean of independent numbers by Student's t-test.
     pub fn mean(&mut self, name: &str, values: &[f64], expected: f64) {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;
@@ -57,7 +58,7 @@ impl Family {
         let n = observed.iter().sum::<u64>() as f64;
         assert!(n > 0.0, "{name}: no samples");
         let bins = merged(observed.iter().zip(shares).map(|(o, s)| (*o as f64, s * n)));
-        // With a single bin left there is nothing to compare.
+        // A single bin cannot be tested.
         if bins.len() < 2 {
             return;
         }
@@ -67,7 +68,7 @@ impl Family {
         self.tests.push((name.to_owned(), format!("χ² = {chi2:.1} with {dof} degrees of freedom"), p));
     }
 
-    /// Fails if any test came out too unlikely.
+    /// Fails if the p-value of any test is below the significance level.
     pub fn judge(self) {
         let n = self.tests.len() as f64;
         let allowed = -((-ALPHA).ln_1p() / n).exp_m1();
@@ -78,7 +79,7 @@ impl Family {
     }
 }
 
-/// Bins as (observed, expected), those that expect too few merged into one that does not.
+/// Bins as (observed, expected), with those below [`FEWEST`] expected samples merged.
 fn merged(bins: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
     let mut bins: Vec<_> = bins.collect();
     bins.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -107,10 +108,10 @@ mod tests {
 
     #[test]
     fn a_bias_is_seen_and_a_coincidence_is_not() {
-        // 50 is the standard deviation; 10⁻⁶ lies at 4.9 of them.
+        // The standard deviation is 50; 10⁻⁶ corresponds to 4.9 standard deviations.
         assert!(coin(5100, 0.5) && coin(5240, 0.5));
         assert!(!coin(5250, 0.5) && !coin(4750, 0.5));
-        // A hundred such tests together allow 5.7.
+        // A family of a hundred tests allows 5.7.
         let together = |heads: u64| {
             let mut family = Family::default();
             (0..100).for_each(|_| family.counts("coin", &[heads, 10_000 - heads], &[0.5, 0.5]));

@@ -1,6 +1,6 @@
-//! Grids that tests make up, and the files that hold them.
+//! Synthetic grids in files.
 
-/// A grid as the bytes of a `.npy` file, x fastest.
+/// Encodes a grid as a `.npy` file, x fastest.
 pub fn npy([nx, ny, nz]: [usize; 3], channels: usize, values: &[f32]) -> Vec<u8> {
     assert_eq!(values.len(), nx * ny * nz * channels);
     let shape = match channels {

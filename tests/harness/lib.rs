@@ -1,4 +1,4 @@
-//! What the tests share: statistics, scenes, references, volume files.
+//! Shared support of the tests: statistics, scenes, sessions, volume files.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

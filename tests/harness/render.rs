@@ -1,4 +1,4 @@
-//! Scenes from text, and their image's mean.
+//! Scenes from text, and means of their images.
 
 use majorant_core::check::{Batches, Layout, Plan, stats};
 use majorant_core::estimator::{self, Settings};
@@ -7,7 +7,7 @@ use majorant_core::scene::{Scene, SceneDoc, build};
 use majorant_core::transport::CancelToken;
 use std::path::Path;
 
-/// How a test scene begins that looks at the origin from outside, in 8 × 8 pixels.
+/// Beginning of a test scene: a camera outside of the medium that looks at the origin, with 8 × 8 pixels.
 pub const CAMERA: &str = "
 majorant = 1
 [camera]
@@ -23,12 +23,12 @@ pub fn scene(toml: &str) -> SceneDoc {
     scene_file::parse(toml, "test scene").unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Freezes a document whose files lie in `base`.
+/// Builds the scene of a document whose files are in `base`.
 pub fn frozen(doc: &SceneDoc, base: &Path) -> Scene {
     build(doc, &mut Library::default().with_base(base)).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The image's mean under an estimator, with its standard error, from batches of `spp` samples.
+/// Mean of the image with an estimator, and its standard error, from batches of `spp` samples.
 pub fn mean(doc: &SceneDoc, estimator: &str, spp: u64) -> (f64, f64) {
     let scene = frozen(doc, Path::new("."));
     let kernel = estimator::find(estimator).unwrap().kernel;
@@ -40,7 +40,7 @@ pub fn mean(doc: &SceneDoc, estimator: &str, spp: u64) -> (f64, f64) {
     image.whole()
 }
 
-/// The most standard errors that two means of `tests` comparisons may differ by.
+/// Allowed difference of two means in standard errors, for a family of `tests` comparisons.
 pub fn allowed(tests: usize) -> f64 {
     stats::critical_t(tests, 127.0)
 }

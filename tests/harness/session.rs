@@ -1,4 +1,4 @@
-//! A session under watch: its views' states are waited for, never slept for.
+//! A session whose view states can be waited for without polling.
 
 use majorant_core::film::Snapshot;
 use majorant_core::io::{Library, embedded, scene_file};
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A small embedded scene with a grid, rendered by so many threads up to a limit.
+/// A small embedded scene with a grid, with the given numbers of threads and samples per pixel.
 pub fn small_doc(threads: usize, spp: u64) -> SceneDoc {
     let text = embedded::find("first-light").unwrap().toml;
     let mut doc = scene_file::parse(text, "first-light").unwrap();
@@ -21,8 +21,8 @@ pub fn small_doc(threads: usize, spp: u64) -> SceneDoc {
     doc
 }
 
-/// A scene in which a single path takes hours: half a million mean free paths of albedo 1, the camera in the
-/// middle.
+/// A scene in which a single path takes hours: an optical depth of 250 000 with albedo 1, and the camera in
+/// the centre.
 pub fn endless(threads: usize) -> SceneDoc {
     let text = "
         majorant = 1
@@ -42,12 +42,12 @@ pub fn endless(threads: usize) -> SceneDoc {
     doc
 }
 
-/// A job of a document.
+/// Creates a job for a document.
 pub fn job(doc: &SceneDoc, preview: bool) -> Job {
     Job { doc: Arc::new(doc.clone()), preview, role: Role::View }
 }
 
-/// A session that tells when there is something new to see.
+/// A session with a channel that signals changes.
 pub struct Watched {
     session: Session,
     woken: Receiver<()>,
@@ -69,7 +69,7 @@ impl Watched {
         Self { session: session.unwrap(), woken }
     }
 
-    /// Waits until a view is in a state that is wanted.
+    /// Waits until the state of a view satisfies a condition.
     pub fn wait(&self, view: ViewId, wanted: impl Fn(&ViewState) -> bool) -> ViewState {
         loop {
             let state = self.session.state(view);
@@ -81,11 +81,11 @@ impl Watched {
             }
             self.woken
                 .recv_timeout(PATIENCE)
-                .unwrap_or_else(|_| panic!("the session went silent: {state:?}"));
+                .unwrap_or_else(|_| panic!("the session sent no signal: {state:?}"));
         }
     }
 
-    /// Waits until the newest submission of a view has a picture that is wanted.
+    /// Waits until the snapshot of the newest submission of a view satisfies a condition.
     pub fn wait_picture(&self, view: ViewId, wanted: impl Fn(&Status, &Snapshot) -> bool) -> Arc<Snapshot> {
         let current = |state: &ViewState| {
             state.snapshot.clone().filter(|s| s.generation == state.generation && wanted(&state.status, s))
@@ -105,14 +105,14 @@ impl Default for Watched {
     }
 }
 
-/// What an undisturbed session makes of a document.
+/// Renders a document in an undisturbed session.
 pub fn finished(doc: &SceneDoc) -> Arc<Snapshot> {
     let session = Watched::new();
     session.submit(ViewId(0), job(doc, false));
     session.wait_finished(ViewId(0))
 }
 
-/// Bit by bit.
+/// Asserts that two snapshots are equal bit by bit.
 pub fn assert_same(a: &Snapshot, b: &Snapshot) {
     assert_eq!(a.spp, b.spp);
     let bits = |s: &Snapshot| -> Vec<u32> {

@@ -1,4 +1,4 @@
-//! Numbers, directions, components and events: what everything else is drawn with.
+//! Random numbers, directions, components and events.
 
 use glam::Vec3;
 use majorant_core::math::{INV_4PI, Sampler, cosine_direction, uniform_direction};
@@ -22,7 +22,7 @@ fn numbers_are_uniform_and_optical_depths_exponential() {
     family.uniform("second of a pair", (0..SAMPLES).map(|_| f64::from(one.next_2d().y)));
     let depths = (0..SAMPLES).map(|_| 1.0 - (-f64::from(one.next_optical_depth())).exp());
     family.uniform("optical depth", depths);
-    // A path draws few numbers from a stream of its own.
+    // A path uses the first few numbers of its own stream.
     let later = |skip: usize| {
         (0..SAMPLES).map(move |i| {
             let mut stream = Sampler::new(2, i % 200, i / 200);
@@ -83,7 +83,7 @@ fn every_component_is_uniform() {
     family.judge();
 }
 
-/// Shares of null, scattering and absorption at one collision, from the table of events.
+/// Probabilities of null collision, scattering and absorption at a collision.
 fn shares([t, albedo, m]: [f64; 3], absorption: Absorption) -> [f64; 3] {
     let k = 1.0 / (t + (m - t).abs());
     let (scattering, absorbed) = match absorption {
@@ -101,7 +101,7 @@ fn events_come_as_often_as_their_densities_say() {
     let ends = [[5.0, 0.0, 5.0], [5.0, 1.0, 5.0], [0.0, 0.5, 5.0], [4.0, 0.998, 5.0]];
     for (seed, case) in (0..).zip(cases.into_iter().chain(ends)) {
         for absorption in [Absorption::Analogue, Absorption::Weighted] {
-            // The other components must not have a say.
+            // The other component must not affect the event.
             let [extinction, albedo, majorant] =
                 [(case[0], 9.0), (case[1], 0.3), (case[2], 1.0)].map(|(x, other)| Sampled([x as f32, other]));
             let segment = MajorantSegment { t0: 0.0, t1: 1.0, majorant, clamp_null: false, watched: false };

@@ -1,5 +1,5 @@
-//! Free flight: distances to tentative collisions under the majorant, and to the first real one under
-//! the extinction itself.
+//! Free flight: distances to tentative collisions, which follow the majorant, and to the first real one,
+//! which follow the extinction.
 
 #[path = "flight/line.rs"]
 mod line;
@@ -20,20 +20,20 @@ const BY: WavelengthSampling = WavelengthSampling::Uniform;
 const RGB: [f64; 3] = [1.0, 3.0, 6.0];
 const POINTS: [(f64, f64); 4] = [(400.0, 0.5), (500.0, 6.0), (560.0, 2.0), (700.0, 4.0)];
 
-/// What flights are held against: optical depths from the origin, and where the walk ends.
+/// Expected distribution: optical depths from the origin as functions of distance, and the end of the walk.
 struct Truth<'a> {
     majorant: &'a dyn Fn(f64) -> f64,
     extinction: &'a dyn Fn(f64) -> f64,
     end: f64,
 }
 
-/// Cumulative distribution of a flight that starts at optical depth `before` and does not pass `end`.
+/// Cumulative distribution of a free flight that starts at optical depth `before` and ends before `end`.
 fn arrived(depth: &dyn Fn(f64) -> f64, before: f64, t: f64, end: f64) -> f64 {
     let by = |t: f64| -(before - depth(t)).exp_m1();
     (by(t) / by(end)).min(1.0)
 }
 
-/// Walks along one ray until something real happens, many times.
+/// Samples many walks along one ray, each until its first real collision.
 fn fly<L: LocalMedium<N>, const N: usize>(
     family: &mut Family,
     name: &str,
@@ -80,7 +80,7 @@ fn fly<L: LocalMedium<N>, const N: usize>(
             family.counts(&format!("{name}: {what}"), &[count, WALKS - count], &[1.0 - passing, passing]);
             family.uniform(&format!("{name}: {what} distance"), shares);
         }
-        // Where the majorant is tight every collision of a homogeneous medium is real.
+        // With a tight majorant in a homogeneous medium every collision is real, and there is no second.
         if second.len() > 1000 {
             family.uniform(&format!("{name}: second distance"), second);
         }
@@ -111,7 +111,7 @@ fn scene(grid: bool, extinction: &str, factor: f64, cells: u32) -> Scene {
     build(&doc, &mut Library::default().with_base(folder.path())).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Flies at one set of components, whose hero has extinction `hero` at density 1.
+/// Tests one set of components, whose hero has extinction `hero` at density 1.
 fn fly_at<C: Components<N>, const N: usize>(
     family: &mut Family,
     name: &str,
@@ -132,14 +132,14 @@ fn fly_at<C: Components<N>, const N: usize>(
         AnyMedium::DensityGrid(m) => {
             let local = m.local(components);
             let depth = depth_by_cells(&local, scene, line);
-            assert!(depth(line.exit) < 0.9 * global(line.exit), "local majorants are no tighter");
+            assert!(depth(line.exit) < 0.9 * global(line.exit), "local majorants are not tighter");
             fly(family, name, &truth(&depth), (&local, scene), ray);
         }
         AnyMedium::RgbGrids(_) => panic!("there is no RGB grid"),
     }
 }
 
-/// Optical depth by the hero's local majorants, from where the line enters the box.
+/// Optical depth of the hero's local majorants, from the entry of the line into the box.
 fn depth_by_cells<L: LocalMedium<N>, const N: usize>(
     medium: &L,
     scene: &Scene,
@@ -185,15 +185,15 @@ fn flights_follow_the_majorant_and_real_collisions_the_extinction() {
             let hero = between_points(f64::from(set.lambda_nm[0]));
             fly_at(&mut family, &format!("{name}, {set:?}"), (&spectral, &line), (&set, hero, factor), 9.0);
         }
-        // The way to a surface within the box.
+        // The distance to a surface inside the box.
         let (set, end) = (RgbChannels::<1>::sample(0.5, Some(BY)), 0.4 * line.enter + 0.6 * line.exit);
         fly_at(&mut family, &format!("{name}, cut short"), (&rgb, &line), (&set, RGB[1], factor), end);
     }
     family.judge();
 }
 
-/// A medium of stretches with majorants of their own, one of them empty for the hero, of which a
-/// constant share is extinction.
+/// A medium of segments with different majorants, one of them zero for the hero. The extinction is a constant
+/// fraction of the majorant.
 struct Stretches {
     hero: usize,
 }

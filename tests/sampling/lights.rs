@@ -1,4 +1,4 @@
-//! Lights of every kind, near, far and at a slant, from several points.
+//! Lights of every kind, near, far and at grazing angles, from several points.
 
 use glam::{Vec2, Vec3};
 use majorant_core::io::Library;
@@ -10,10 +10,11 @@ use majorant_core::surface::Role;
 use majorant_tests::chi2::Family;
 use std::path::Path;
 
-/// Points that lights are seen from.
+/// Points from which lights are sampled.
 const FROM: [Vec3; 3] = [Vec3::ZERO, Vec3::new(0.3, -0.4, 0.2), Vec3::new(-0.9, 0.5, -0.7)];
 
-/// A coarse sky with a sun and black texels, and a fine one that is bright in a narrow stripe only.
+/// Writes a coarse environment map with a sun and black texels, and a fine one that is bright only in a
+/// narrow stripe.
 fn write_skies(folder: &Path) {
     let coarse = |x: usize, y: usize| match (x, y) {
         (11, 2) => (90.0f32, 80.0f32, 60.0f32),
@@ -28,7 +29,7 @@ fn write_skies(folder: &Path) {
     exr::prelude::write_rgb_file(folder.join("fine.exr"), 64, 32, fine).unwrap();
 }
 
-/// One of each kind, and those that are hard.
+/// One light of each kind, and difficult cases.
 fn lights() -> Vec<(String, LightDoc)> {
     let map = |file: &str, rotate_deg| LightDoc::EnvironmentMap {
         file: file.into(),
@@ -79,13 +80,13 @@ fn lights() -> Vec<(String, LightDoc)> {
     lights
 }
 
-/// A scene of one light, and nothing in the way.
+/// A scene with one light and no occluders.
 fn scene(light: &LightDoc, folder: &Path) -> Scene {
     let doc = SceneDoc { lights: vec![light.clone()], ..SceneDoc::default() };
     build(&doc, &mut Library::default().with_base(folder)).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Distance to the light's emitting side along a ray; `None` where the ray misses it.
+/// Distance to the emitting side of the light along a ray; `None` if the ray misses it.
 fn reach(scene: &Scene, ray: &Ray) -> Option<f32> {
     let end = scene.nearest_surface(ray, f32::INFINITY, false);
     match end.role() {
@@ -94,11 +95,11 @@ fn reach(scene: &Scene, ray: &Ray) -> Option<f32> {
     }
 }
 
-/// What a sample says of itself must be true: its density, and its place on the light.
+/// Checks the density and the distance of a sample.
 fn check(name: &str, scene: &Scene, from: Vec3, s: &LightSample) {
     let density = scene.lights[0].density(from, s.direction, s.distance);
     assert!((s.density / density - 1.0).abs() < 1e-3, "{name}: density {} is not {density}", s.density);
-    // Grazing rays may miss by rounding; the χ² test looks after those. All others agree.
+    // Grazing rays may miss by rounding; these are covered by the χ² test.
     if let Some(distance) = reach(scene, &Ray { origin: from, direction: s.direction }) {
         let agrees = distance == s.distance || (distance - s.distance).abs() < 2e-3 * distance;
         assert!(agrees, "{name}: a sample at {} where the light is at {distance}", s.distance);
@@ -131,7 +132,7 @@ fn directions_towards_every_light_follow_their_density() {
     family.judge();
 }
 
-/// Directions of scattering: at a light, past it, away from it, and some that graze an axis.
+/// Incident directions: at a light, past it, away from it, and along coordinate axes.
 fn incoming(scene: &Scene, from: Vec3) -> Vec<Vec3> {
     let mut sampler = Sampler::new(0, 0, 0);
     let at = scene.lights[0].sample(from, sampler.next_2d()).expect("the point is lit").direction;
@@ -140,7 +141,8 @@ fn incoming(scene: &Scene, from: Vec3) -> Vec<Vec3> {
     vec![at, beside, across, -beside, -at, Vec3::X, Vec3::NEG_Z]
 }
 
-/// Two ways to integrate over what a light is seen in, and two over the part of the lobe around it.
+/// Product sampling is compared with light sampling by an integral over the light, and with phase function
+/// sampling by an integral over the part of the lobe around it.
 #[test]
 fn products_of_light_and_lobe_are_drawn_by_their_densities() {
     let folder = tempfile::tempdir().unwrap();
@@ -148,7 +150,7 @@ fn products_of_light_and_lobe_are_drawn_by_their_densities() {
     let mut family = Family::default();
     let mut compare = |name: &str, difference: &mut dyn FnMut() -> f64| {
         let differences: Vec<f64> = (0..20_000).map(|_| difference()).collect();
-        // Where neither way has any noise, rounding is all that differs.
+        // If neither estimate has noise, they differ only by rounding.
         if differences.iter().any(|d| d.abs() > 1e-4) {
             family.mean(name, &differences, 0.0);
         }
@@ -178,7 +180,11 @@ fn products_of_light_and_lobe_are_drawn_by_their_densities() {
                     });
                     let s = light.sample(from, sampler.next_2d()).expect("the point is lit");
                     let inside = doc_is_around(&doc) || parts.density(s.direction) > 0.0;
-                    assert!(inside, "{name}: a part that does not hold the light at {}", s.direction);
+                    assert!(
+                        inside,
+                        "{name}: the part of the lobe does not contain the light at {}",
+                        s.direction
+                    );
                     product - lobe(s.direction).sqrt() / f64::from(s.density)
                 };
                 compare(&format!("{name}: connections"), &mut by_light);

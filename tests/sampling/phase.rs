@@ -1,16 +1,16 @@
-//! Phase functions: every kind, blunt and sharp, forward and backward.
+//! Phase functions of every kind, from isotropic to sharply peaked, forward and backward.
 
 use glam::{Vec2, Vec3};
 use majorant_core::math::Sampler;
 use majorant_core::phase::{Angle, Phase, PhaseDoc};
 use majorant_tests::chi2::Family;
 
-/// One of each kind, and the parameters that are hard.
+/// One phase function of each kind, and difficult parameters.
 fn phases() -> Vec<(String, PhaseDoc)> {
     let hard = [0.0, 0.5, -0.5, 0.9, -0.9, 0.999, -0.999].map(|g| PhaseDoc::HenyeyGreenstein { g });
     let two = |g_forward, g_backward, forward| PhaseDoc::TwoLobe { g_forward, g_backward, forward };
     let two = [two(0.9, -0.9, 0.5), two(0.999, 0.0, 0.3), two(0.8, -0.4, 0.0), two(0.8, -0.4, 1.0)];
-    // Both sides of where the quartic is no longer solved, and the ends of both ranges.
+    // Both sides of the threshold below which the quartic is not solved, and the ends of both ranges.
     let draine = [
         (0.0, 1.0),
         (0.0, 1000.0),
@@ -51,17 +51,17 @@ fn mean_cosine(doc: &PhaseDoc) -> f64 {
         }
         PhaseDoc::Draine { g, alpha } => {
             let (g, alpha) = (f64::from(g), f64::from(alpha));
-            // By the moments of Henyey–Greenstein: g, (1 + 2 g²)/3, (3 g + 2 g³)/5.
+            // From the moments of Henyey–Greenstein: g, (1 + 2 g²)/3, (3 g + 2 g³)/5.
             (g + alpha * (3.0 * g + 2.0 * g.powi(3)) / 5.0) / (1.0 + alpha * (1.0 + 2.0 * g * g) / 3.0)
         }
-        // What the first test holds against quadrature.
+        // The first test compares this with quadrature.
         PhaseDoc::Mie { .. } | PhaseDoc::Tabulated { .. } => f64::from(Phase::new(doc).mean_cosine()),
     };
     assert!((f64::from(Phase::new(doc).mean_cosine()) - known).abs() < 1e-6, "{doc:?}");
     known
 }
 
-/// Directions that phase functions are tried on: at both poles of the frame, and elsewhere.
+/// Incident directions: both poles of the frame, and a general direction.
 fn incoming() -> [Vec3; 3] {
     [Vec3::Z, Vec3::NEG_Z, Vec3::new(0.36, -0.48, -0.8)]
 }
@@ -75,7 +75,7 @@ fn directions_follow_the_phase_function() {
             let mut sampler = Sampler::new(seed, pixel, 0);
             let draw = || {
                 let (omega_out, density) = phase.sample(omega_in, sampler.next_2d());
-                // Rounding of the directions themselves shows in the sharpest lobes.
+                // Rounding of the directions has an effect on the sharpest lobes.
                 let error = density / phase.density(omega_in, omega_out) - 1.0;
                 assert!(error.abs() < 0.05, "{name}: the density of a sample is off by {error}");
                 omega_out
@@ -96,7 +96,7 @@ fn the_mean_cosine_of_samples_is_g() {
         let phase = Phase::new(&doc);
         for (pixel, omega_in) in (0..).zip(incoming()) {
             let mut sampler = Sampler::new(seed, pixel, 1);
-            // 1 − cos θ keeps the digits of sharp lobes.
+            // 1 − cos θ keeps precision for sharp lobes.
             let mut offset = || {
                 let (omega_out, _) = phase.sample(omega_in, sampler.next_2d());
                 0.5 * (omega_out.as_dvec3().normalize() - omega_in.as_dvec3().normalize()).length_squared()

@@ -50,7 +50,7 @@ struct Key {
 }
 
 #[derive(Default)]
-struct Shelf {
+struct Cache {
     equations: HashMap<Key, (Arc<Equation>, u64)>,
 }
 
@@ -62,20 +62,20 @@ pub fn equation(ctx: &Context, tex: &str, place: Place, em: f32) -> Result<Arc<E
     let pixels_per_point = ctx.pixels_per_point();
     let key =
         Key { tex: tex.to_owned(), place, em: em.to_bits(), pixels_per_point: pixels_per_point.to_bits() };
-    let shelf: Arc<Mutex<Shelf>> = ctx.data_mut(|data| {
-        data.get_temp_mut_or_default::<Arc<Mutex<Shelf>>>(Id::unique("shelf of equations")).clone()
+    let cache: Arc<Mutex<Cache>> = ctx.data_mut(|data| {
+        data.get_temp_mut_or_default::<Arc<Mutex<Cache>>>(Id::unique("equation cache")).clone()
     });
-    let mut shelf = shelf.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let mut cache = cache.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let now = ctx.cumulative_frame_nr();
-    if let Some((equation, used)) = shelf.equations.get_mut(&key) {
+    if let Some((equation, used)) = cache.equations.get_mut(&key) {
         *used = now;
         return Ok(Arc::clone(equation));
     }
     let equation = Arc::new(set(ctx, tex, place, em, pixels_per_point)?);
-    if shelf.equations.len() >= KEPT {
-        shelf.equations.retain(|_, (_, used)| *used + 1 >= now);
+    if cache.equations.len() >= KEPT {
+        cache.equations.retain(|_, (_, used)| *used + 1 >= now);
     }
-    shelf.equations.insert(key, (Arc::clone(&equation), now));
+    cache.equations.insert(key, (Arc::clone(&equation), now));
     Ok(equation)
 }
 
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_equation_is_said() {
+    fn invalid_tex_is_an_error() {
         assert!(check(r"\frac{1}{2}").is_ok());
         assert!(check(r"\frac{1}{").is_err() && check(r"\nosuchcommand").is_err());
     }

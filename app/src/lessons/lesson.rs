@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_step_leaves_is_as_the_steps_before_it_have_set_it() {
+    fn unset_settings_are_inherited_from_earlier_steps() {
         let first = "right = 1\ntab = \"ray\"\nray = { cells = 4, kind = \"ratio\" }";
         let text = TWO.replace("right = 1", first).replace("set =", "ray = { cells = 8 }\nset =");
         let stop = Lesson::parse("two", &text).unwrap().stop_at(1).unwrap();
@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said_with_its_line() {
+    fn errors_name_line_and_problem() {
         let said = |source: &str| Lesson::parse("x", source).unwrap_err().to_string();
         assert!(said("hello").contains("begins with +++"));
         assert!(said("+++\ntitle = \"T\"\n+++").contains("no step"));

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_gives_what_can_be_read_and_says_what_cannot() {
+    fn a_folder_gives_its_lessons_and_the_errors_of_unreadable_ones() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("good.md"), EMBEDDED[0].1).unwrap();
         std::fs::write(folder.path().join("bad.md"), "no header").unwrap();

@@ -2,8 +2,8 @@
 //!
 //! One slice of the grid is shown, perpendicular to the axis closest to the view direction.
 //! A cell's colour is its tightness, mean density over bound: 1 where every collision is real, near 0 where
-//! nearly all are null. Cells in which a free flight found the extinction to exceed the majorant are red, with
-//! an opacity that increases with the ratio. Empty cells are transparent.
+//! nearly all are null. Cells in which a free flight found the extinction to exceed the majorant are red, and
+//! their opacity increases with the ratio. Empty cells are transparent.
 
 use super::image_view::ImageView;
 use crate::theme::Palette;

@@ -43,9 +43,9 @@ impl Wall {
             .iter()
             .find_map(|s| self.uploaded(*s)?.map.clone())
             .filter(|_| self.map().is_some());
-        if let Some(print) = map {
+        if let Some(image) = map {
             let strip = rect.with_min_y(rect.bottom() - legend::HEIGHT);
-            legend_ui(ui, strip, &print);
+            legend_ui(ui, strip, &image);
             rect.max.y = strip.top();
         }
         let mut seen = Seen { zoom: 1.0, ..Seen::default() };

@@ -13,10 +13,10 @@ const WIDE: f32 = 760.0;
 const STEPS: usize = 128;
 
 /// Draws the colour scale with its values.
-pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
+pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, image: &MapImage) {
     let palette = Palette::get(ui);
     let response = ui.allocate_rect(rect, Sense::hover());
-    let (map, range) = (print.map, print.range);
+    let (map, range) = (image.map, image.range);
     response.widget_info(|| {
         let text = format!("{}: {} to {}", map.name, range.lo, range.hi);
         WidgetInfo::labeled(Role::Label, true, text)
@@ -32,8 +32,8 @@ pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
         palette.strong,
     );
     let mut named = name.right();
-    if !print.against.is_empty() && rect.width() > WIDE {
-        let against = format!("against {}", print.against);
+    if !image.against.is_empty() && rect.width() > WIDE {
+        let against = format!("against {}", image.against);
         let at = name.right_center() + vec2(10.0, 0.0);
         named = painter.text(at, Align2::LEFT_CENTER, against, font.clone(), palette.weak).right();
     }
@@ -60,7 +60,7 @@ pub(super) fn legend_ui(ui: &mut Ui, rect: Rect, print: &MapImage) {
         painter.text(egui::pos2(x, bar.bottom() + 4.0), Align2::CENTER_TOP, text, font.clone(), palette.text);
     }
     let against =
-        if print.against.is_empty() { String::new() } else { format!("\nCompared with {}.", print.against) };
+        if image.against.is_empty() { String::new() } else { format!("\nCompared with {}.", image.against) };
     response.on_hover_text(format!(
         "{}{against}\nAll views share the range; magenta marks values that are not finite.",
         map.formula

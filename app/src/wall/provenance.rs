@@ -1,7 +1,8 @@
 //! Provenance of statistics: they are shown only with the images that they describe.
 //!
-//! Edits do not wait for a running analysis. Every number therefore carries the submissions, the reference, the
-//! box and the baseline from which it was computed, and is hidden in the same frame in which one of these changes.
+//! Edits do not wait for a running analysis. Every number therefore carries the submissions, the reference,
+//! the box and the baseline from which it was computed, and is hidden in the same frame in which one of these
+//! changes.
 
 use super::analysis::Analysis;
 use super::reference::ReferenceId;

@@ -139,7 +139,7 @@ impl ReferenceRenders {
         }
     }
 
-    /// Updates the image from views and session; `target` is the fingerprint of the image of view A.
+    /// Updates the image from views and session; `target` identifies the image of view A.
     pub fn update(&mut self, doc: &SceneDoc, views: &[Slot], target: Option<&str>, session: &Session) {
         if let Some(slot) = &mut self.rendered {
             slot.update(session);
@@ -157,7 +157,7 @@ impl ReferenceRenders {
                 let named =
                     self.picture.as_ref().is_none_or(|known| known.origin.starts_with(&format!("{origin},")));
                 if !(same && named) {
-                    // Views with the seed of the reference are excluded, even if the document changes meanwhile.
+                    // Views with the reference's seed are excluded, even if the document changes meanwhile.
                     let seed = slot.rendered.render.seed;
                     self.picture = usable.as_ref().map(|s| {
                         let origin = format!("{origin}, {} spp", s.spp);
@@ -246,7 +246,7 @@ impl ReferenceRenders {
                                     .into(),
                             );
                         } else if self.file.as_ref().is_some_and(|f| f.trusted) {
-                            state.text += " (taken on trust)";
+                            state.text += " (assumed to show this scene)";
                         }
                     }
                 }

@@ -137,8 +137,8 @@ fn same_files(a: &SceneDoc, b: &SceneDoc) -> bool {
         && a.lights.len() == b.lights.len()
 }
 
-/// Assigns slots to the documents `wanted`, so that only changed views are restarted when views are moved, removed
-/// or copied. `fresh` creates an empty slot. Returns the assigned slots and the unused ones.
+/// Assigns slots to the documents `wanted`, so that only changed views are restarted when views are moved,
+/// removed or copied. `fresh` creates an empty slot. Returns the assigned slots and the unused ones.
 pub fn assign(
     old: Vec<Slot>,
     wanted: &[SceneDoc],

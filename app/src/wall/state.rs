@@ -174,19 +174,19 @@ impl Wall {
         self.selected = 0;
     }
 
-    /// Updates the state from session and worker threads; `prints` are new images.
+    /// Updates the state from the session, the worker threads and newly tone-mapped `images`.
     pub fn update(
         &mut self,
         ctx: &Context,
         session: &Session,
-        prints: BTreeMap<PictureId, Option<ViewImage>>,
+        images: BTreeMap<PictureId, Option<ViewImage>>,
     ) {
         for slot in &mut self.slots {
             slot.update(session);
         }
-        for (picture, print) in prints {
-            match print {
-                Some(print) => self.upload(ctx, picture, print),
+        for (picture, image) in images {
+            match image {
+                Some(image) => self.upload(ctx, picture, image),
                 None => drop(self.uploaded.remove(&picture)),
             }
         }
@@ -199,7 +199,7 @@ impl Wall {
         self.ask();
     }
 
-    /// Fingerprint of the image of view A.
+    /// Identifier of the image of view A.
     fn target(&self) -> Option<String> {
         let current = self.slots.first().and_then(Slot::picture).map(|snapshot| snapshot.target.clone());
         current.filter(|t| !t.is_empty())

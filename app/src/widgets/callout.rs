@@ -1,14 +1,14 @@
-//! Remarks in panels: quiet hints, callouts with a coloured edge, and badges.
+//! Hints, callouts and badges.
 
 use crate::theme::{Palette, UNIT};
 use egui::{Color32, CornerRadius, Frame, Label, Margin, RichText, Stroke, Ui};
 
-/// A quiet paragraph.
+/// Draws a paragraph in small, weak text.
 pub fn hint(ui: &mut Ui, text: &str) {
     ui.add(Label::new(RichText::new(text).small().weak()).wrap().selectable(false));
 }
 
-/// A paragraph with a coloured edge.
+/// Draws a paragraph with a coloured edge.
 pub fn callout(ui: &mut Ui, colour: Color32, text: &str) {
     let response = Frame::NONE
         .inner_margin(Margin { left: 10, right: 6, top: 4, bottom: 4 })
@@ -24,7 +24,7 @@ pub fn callout(ui: &mut Ui, colour: Color32, text: &str) {
     ui.add_space(0.5 * UNIT);
 }
 
-/// A word in a coloured outline.
+/// Draws a short text in a coloured outline.
 pub fn badge(ui: &mut Ui, colour: Color32, text: &str) -> egui::Response {
     Frame::NONE
         .inner_margin(Margin::symmetric(6, 1))

@@ -1,10 +1,11 @@
-//! Choosing one of a few things.
+//! Segmented buttons and checkboxes.
 
 use super::row::row;
 use crate::theme::Palette;
 use egui::{Button, CornerRadius, RichText, Ui, vec2};
 
-/// Buttons side by side, one of them pressed. Each is named `name: label`.
+/// Draws a row of buttons, one per option, each with the accessible name `name: label`. Returns whether the
+/// value changed.
 pub fn segmented<T: PartialEq + Copy>(
     ui: &mut Ui,
     name: &str,
@@ -16,7 +17,7 @@ pub fn segmented<T: PartialEq + Copy>(
     ui.scope(|ui| {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 1.0;
-            // The buttons share the width; their text may fill it.
+            // The buttons divide the width equally.
             ui.spacing_mut().button_padding.x = 2.0;
             let count = options.len() as f32;
             let width = (ui.available_width() - (count - 1.0)) / count;
@@ -39,14 +40,14 @@ pub fn segmented<T: PartialEq + Copy>(
     changed
 }
 
-/// Only the outer corners of the group are round.
+/// Corner radii of a button: only the outer corners of the row are rounded.
 fn ends(index: usize, count: usize) -> CornerRadius {
     let left = if index == 0 { 4 } else { 0 };
     let right = if index + 1 == count { 4 } else { 0 };
     CornerRadius { nw: left, sw: left, ne: right, se: right }
 }
 
-/// A row with a checkbox.
+/// Draws a row with a checkbox.
 pub fn switch(ui: &mut Ui, label: &str, name: &str, value: &mut bool, text: &str, tip: &str) {
     row(ui, label, tip, |ui, _| {
         let response = ui.checkbox(value, text).accessible_name(name);

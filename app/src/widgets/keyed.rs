@@ -1,8 +1,8 @@
-//! Rows of the table of keys, as panels name them.
+//! Look-up of scene keys by path.
 
 use majorant_core::scene::keys::{self, Affects, Default, Key, Type};
 
-/// A row that says nothing: for a path that there is none for, which a test rules out.
+/// Fallback for an unknown path; a test checks that no panel uses one.
 static BLANK: Key = Key {
     path: "",
     kinds: &[],
@@ -16,7 +16,7 @@ static BLANK: Key = Key {
     cure: "",
 };
 
-/// The row of a key.
+/// Returns the key with a path.
 #[must_use]
 pub fn key(path: &str) -> &'static Key {
     keys::find(path, None).unwrap_or(&BLANK)
@@ -38,7 +38,7 @@ mod tests {
         }
     }
 
-    /// Panels name keys that exist, and have no ranges of their own.
+    /// Panels use existing keys, and define no ranges themselves.
     #[test]
     fn panels_take_their_ranges_from_the_table() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
@@ -53,7 +53,7 @@ mod tests {
                 assert!(keys::find(path, None).is_some(), "{file}: {path}");
                 named += 1;
             }
-            // The bench of the dock has numbers of its own, which no scene holds.
+            // The *Ray* tab has parameters that are not scene keys.
             if file.contains("/panels/") {
                 for own in [".range(", "Value::new(", "DragValue::new(", "optional(ui"] {
                     assert!(!text.contains(own), "{file}: {own}");

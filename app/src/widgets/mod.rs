@@ -1,4 +1,4 @@
-//! Small parts that panels are made of. Every one has a name for screen readers and tests.
+//! Widgets of the panels. Each has an accessible name, for screen readers and tests.
 
 mod callout;
 mod choice;

@@ -1,12 +1,12 @@
-//! Numbers as people write and read them.
+//! Formatting and parsing of numbers.
 
-/// At most six significant digits, no trailing zeros.
+/// Formats a number with at most six significant digits and no trailing zeros.
 #[must_use]
 pub fn format_number(value: f64) -> String {
     format_digits(value, 6)
 }
 
-/// As many of six significant digits as fit into `room` characters, but one at least.
+/// Formats a number with as many significant digits as fit into `room` characters, from one to six.
 #[must_use]
 pub fn format_within(value: f64, room: usize) -> String {
     let texts = (1..=6).rev().map(|digits| format_digits(value, digits));
@@ -35,7 +35,7 @@ fn format_digits(value: f64, digits: usize) -> String {
     without_zeros(&format!("{value:.*}", usize::try_from(decimals).unwrap_or(0))).to_owned()
 }
 
-/// Without the zeros at the end of a decimal fraction.
+/// Removes trailing zeros of a decimal fraction.
 fn without_zeros(text: &str) -> &str {
     match text.contains('.') {
         true => text.trim_end_matches('0').trim_end_matches('.'),
@@ -43,7 +43,7 @@ fn without_zeros(text: &str) -> &str {
     }
 }
 
-/// Reads a number with or without its unit, with a decimal point or comma.
+/// Parses a number with or without its unit, with a decimal point or comma.
 #[must_use]
 pub fn parse_number(text: &str, unit: &str) -> Option<f64> {
     let text = text.trim().replace('−', "-");
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(format_number(1.0 / 3.0), "0.333333");
         assert_eq!(format_number(-12.5), "-12.5");
         assert_eq!(format_number(1e-6), "1e-6");
-        // Single precision shows no digits that it does not have.
+        // Digits beyond single precision are not shown.
         assert_eq!(format_number(1e-6_f32.into()), "1e-6");
         assert_eq!(format_number(-2.5e9), "-2.5e9");
     }
@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(format_within(1234.5, 4), "1234");
         assert_eq!(format_within(-1.234_56e-7, 6), "-1e-7");
         assert_eq!(format_within(0.5, 7), "0.5");
-        // What does not fit is shown rather than cut.
+        // Integer digits are never cut.
         assert_eq!(format_within(1_234_567.0, 3), "1234567");
     }
 }

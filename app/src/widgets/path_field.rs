@@ -1,9 +1,9 @@
-//! A file name that can be typed or chosen.
+//! Input field for a file name.
 
 use super::{row::row, text::buffered_text};
 use egui::{Button, Sense, Ui, UiBuilder, vec2};
 
-/// A row with a path; returns whether the file chooser was asked for.
+/// Draws a row with a path and a button; returns whether the button for the file dialog was clicked.
 pub fn path_field(ui: &mut Ui, label: &str, name: &str, hint: &str, path: &mut String, tip: &str) -> bool {
     row(ui, label, tip, |ui, _| {
         let id = ui.make_persistent_id(("path", name));

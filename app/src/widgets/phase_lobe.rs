@@ -1,15 +1,15 @@
-//! A phase function as a polar curve: where light goes that arrives from the left.
+//! Polar plot of a phase function, for light incident from the left.
 
 use crate::theme::Palette;
 use egui::{Align2, FontId, Mesh, Painter, Pos2, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 use majorant_core::phase::Phase;
 use std::f32::consts::{PI, TAU};
 
-/// Decades that the logarithmic radius spans.
+/// Decades of the logarithmic radius.
 const DECADES: f32 = 3.0;
 const SAMPLES: u16 = 720;
 
-/// Draws the lobe. `logarithmic` stretches the radius over three decades below the largest value.
+/// Draws the lobe. With `logarithmic`, the radius covers three decades below the largest value.
 pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     let palette = Palette::get(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 168.0), Sense::hover());
@@ -26,12 +26,12 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
         false => p / largest,
     };
     let curve: Vec<_> = values.iter().map(|(a, p)| vec2(a.cos(), -a.sin()) * radius(*p)).collect();
-    // The lobe, its origin and the arrow before it share the width, whatever the shape.
+    // The extent includes the lobe, the origin, the isotropic circle and the arrow.
     let round = radius(1.0 / (4.0 * PI)).min(1.0);
     let left = curve.iter().map(|v| v.x).fold(-round, f32::min) - 0.3;
     let right = curve.iter().map(|v| v.x).fold(round, f32::max);
     let half = curve.iter().map(|v| v.y.abs()).fold(round.max(0.05), f32::max);
-    // Lines of text above and below.
+    // Margins for the lines of text above and below.
     let scale = ((rect.width() - 24.0) / (right - left)).min((rect.height() - 44.0) / (2.0 * half));
     let origin = pos2(rect.center().x - 0.5 * (left + right) * scale, rect.center().y);
     let outline: Vec<Pos2> = curve.iter().map(|v| origin + *v * scale).collect();
@@ -50,7 +50,7 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     let text = |at, align, text: String| {
         painter.text(at, align, text, FontId::proportional(12.0), palette.weak);
     };
-    text(rect.left_top() + vec2(8.0, 5.0), Align2::LEFT_TOP, "light arrives".into());
+    text(rect.left_top() + vec2(8.0, 5.0), Align2::LEFT_TOP, "incident light".into());
     let mean = format!("mean cosine {}", signed(phase.mean_cosine()));
     text(rect.right_top() + vec2(-8.0, 5.0), Align2::RIGHT_TOP, mean);
     let peak = format!("largest {largest:.3} /sr");
@@ -59,13 +59,13 @@ pub fn phase_lobe(ui: &mut Ui, phase: &Phase, logarithmic: bool) {
     response.on_hover_text("p(cos θ) by direction; its integral over the sphere is 1");
 }
 
-/// Three decimals with a sign, but none before a zero.
+/// Formats a number with three decimals and a sign; zero has no sign.
 fn signed(value: f32) -> String {
     let text = format!("{value:+.3}");
     if text.ends_with("0.000") { "0".into() } else { text.replace('-', "−") }
 }
 
-/// The lobe is a star about its origin, so a fan fills it even where it is not convex.
+/// Fills the lobe. It is star-shaped about its origin, so that a triangle fan covers it even if not convex.
 fn fill(painter: &Painter, origin: Pos2, outline: &[Pos2], colour: egui::Color32) {
     let mut mesh = Mesh::default();
     mesh.colored_vertex(origin, colour);

@@ -1,15 +1,15 @@
-//! A labelled line of a panel: label left, content right, all with the same edges.
+//! Labelled rows of a panel: label left, content right, aligned in columns.
 
 use crate::theme::LABEL_WIDTH;
 use egui::{Align, Id, Label, Layout, RichText, Sense, Ui, UiBuilder, vec2};
 use majorant_core::scene::keys::Key;
 
-/// The row of a key, with its label and meaning.
+/// Draws a row with the label and tooltip of a key.
 pub fn row_of<R>(ui: &mut Ui, key: &'static Key, add: impl FnOnce(&mut Ui, Id) -> R) -> R {
     row(ui, key.label, key.tip, add)
 }
 
-/// A row; `add` gets the rest of the line and the label's id, to name its widget by.
+/// Draws a row; `add` receives the rest of the line, and the label's id, which names its widget.
 pub fn row<R>(ui: &mut Ui, label: &str, tip: &str, add: impl FnOnce(&mut Ui, Id) -> R) -> R {
     ui.horizontal(|ui| {
         let height = ui.spacing().interact_size.y;

@@ -1,4 +1,4 @@
-//! A collapsible section of a column: title left, a summary of its content right.
+//! Collapsible section of a column: title left, summary of its content right.
 
 use crate::theme::{Palette, UNIT};
 use egui::{
@@ -6,21 +6,21 @@ use egui::{
     WidgetInfo, collapsing_header::CollapsingState, pos2, vec2,
 };
 
-/// What a section's header says.
+/// Header of a section.
 pub struct Header<'a> {
-    /// A stable id.
+    /// Stable id.
     pub id: &'a str,
-    /// Its name.
+    /// Title.
     pub title: &'a str,
-    /// What is inside, in a few words.
+    /// Short summary of the content.
     pub summary: &'a str,
-    /// A dot in this colour asks for attention.
+    /// Colour of a warning dot.
     pub alert: Option<Color32>,
-    /// Whether it starts open.
+    /// Whether it is open by default.
     pub open: bool,
 }
 
-/// Shows a section; the body is drawn only while it is open.
+/// Draws a section; the body is drawn only while it is open.
 pub fn section(ui: &mut Ui, header: &Header<'_>, body: impl FnOnce(&mut Ui)) {
     let id = ui.make_persistent_id(("section", header.id));
     let mut state = CollapsingState::load_with_default_open(ui.ctx(), id, header.open);
@@ -74,7 +74,7 @@ fn paint(ui: &Ui, header: &Header<'_>, rect: egui::Rect, response: &Response, op
     painter.galley(at, galley, palette.weak);
 }
 
-/// Points right when closed, down when open.
+/// Draws the chevron, which points right when closed and down when open.
 fn chevron(ui: &Ui, centre: Pos2, openness: f32, colour: Color32) {
     let turn = egui::emath::Rot2::from_angle(openness * std::f32::consts::FRAC_PI_2);
     let points = [vec2(-2.0, -4.0), vec2(2.5, 0.0), vec2(-2.0, 4.0)].map(|v| centre + turn * v);

@@ -1,8 +1,8 @@
-//! A text field that commits when it is left, so that half-typed text never reaches the document.
+//! Text field that commits when it loses focus, so that incomplete text is never applied to the document.
 
 use egui::{Id, Response, TextEdit, Ui};
 
-/// Shows `text`; it changes on Enter or when the field is left, not while typing. Escape takes it back.
+/// Draws an editable text. `text` changes on Enter or loss of focus, not while typing; Escape discards edits.
 pub fn buffered_text(
     ui: &mut Ui,
     id: Id,

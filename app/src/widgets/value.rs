@@ -1,7 +1,7 @@
-//! A number that can be dragged, typed with its unit, and set back.
+//! Input field for a number that can be dragged, typed with its unit, and reset.
 //!
-//! "Back" is to the scene as it was opened or saved, so that a button shows only where something was
-//! changed; the default is in the menu of a right click.
+//! The reset button restores the value when the scene was opened or saved, and is shown only for changed
+//! values. The default is in the context menu.
 
 use super::number::{format_number, format_within, parse_number};
 use super::row::row;
@@ -13,10 +13,10 @@ use egui::{
 use majorant_core::scene::keys::Key;
 use std::ops::RangeInclusive;
 
-/// Width of the reset button, at the end of the label column.
+/// Width of the reset button at the end of the label column, in points.
 const SLOT: f32 = 18.0;
 
-/// A row with one number.
+/// Row with one number.
 pub struct Value<'a, N> {
     label: &'a str,
     value: &'a mut N,
@@ -31,7 +31,7 @@ pub struct Value<'a, N> {
 }
 
 impl<'a, N: Numeric + PartialEq> Value<'a, N> {
-    /// A number with its label and its default.
+    /// Creates a row from a label, a value and its default.
     pub fn new(label: &'a str, value: &'a mut N, default: N) -> Self {
         Self {
             label,
@@ -47,7 +47,7 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
         }
     }
 
-    /// A number of a key: with its label, unit, meaning, default, and exactly the values that it allows.
+    /// Creates a row from a key, with its label, unit, tooltip, default and range.
     pub fn of(key: &'static Key, value: &'a mut N) -> Self {
         let default = key.default_value().and_then(|v| v.as_float().or(v.as_integer().map(|n| n as f64)));
         let default = default.map_or(*value, N::from_f64);
@@ -58,21 +58,21 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
         field
     }
 
-    /// A default of its own, where it is not that of a key.
+    /// Replaces the default of the key.
     #[must_use]
     pub fn defaulting_to(mut self, default: N) -> Self {
         (self.default, self.opened) = (default, default);
         self
     }
 
-    /// A label of its own.
+    /// Replaces the label of the key.
     #[must_use]
     pub fn labelled(mut self, label: &'a str) -> Self {
         self.label = label;
         self
     }
 
-    /// The part of the allowed range that dragging and typing reach; never more than that.
+    /// Restricts dragging and typing to a part of the range; the range is never extended.
     #[must_use]
     pub fn within(mut self, range: RangeInclusive<f64>) -> Self {
         let (low, high) = (range.start().max(*self.range.start()), range.end().min(*self.range.end()));
@@ -80,56 +80,56 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
         self
     }
 
-    /// The value that the scene had when it was opened or saved: what the reset button goes back to.
+    /// Sets the value when the scene was opened or saved, which the reset button restores.
     #[must_use]
     pub fn opened(mut self, opened: N) -> Self {
         self.opened = opened;
         self
     }
 
-    /// The unit, shown behind the number.
+    /// Sets the unit, shown after the number.
     #[must_use]
     pub fn unit(mut self, unit: &'a str) -> Self {
         self.unit = unit;
         self
     }
 
-    /// The allowed range. If it is finite at both ends, a bar shows where the value lies in it.
+    /// Sets the allowed range. A bar shows the position of the value in a range of moderate size.
     #[must_use]
     pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
         self
     }
 
-    /// Change per point of dragging.
+    /// Sets the change per point of dragging.
     #[must_use]
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
     }
 
-    /// Dragging multiplies: as fine at 0.01 as at 100.
+    /// Makes the speed of dragging proportional to the value.
     #[must_use]
     pub fn logarithmic(mut self) -> Self {
         self.logarithmic = true;
         self
     }
 
-    /// What the number means, preferably with the equation that it stands in.
+    /// Sets the tooltip: the meaning of the number, preferably with its equation.
     #[must_use]
     pub fn tip(mut self, tip: &'a str) -> Self {
         self.tip = tip;
         self
     }
 
-    /// A name for screen readers where the label alone would be ambiguous.
+    /// Sets the accessible name, if the label would be ambiguous.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
     }
 
-    /// Shows the row.
+    /// Draws the row.
     pub fn show(self, ui: &mut Ui) -> Response {
         row(ui, self.label, self.tip, |ui, label| self.field(ui, label))
     }
@@ -153,8 +153,8 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
     }
 }
 
-/// A number that is dragged or typed, as wide as it is told to be: long numbers are shortened, and the
-/// whole value is kept unless it is changed.
+/// Draws a number field of a given width. Long numbers are shortened in the display only; the value keeps its
+/// precision unless it is edited.
 pub(super) fn drag<N: Numeric>(
     ui: &mut Ui,
     value: &mut N,
@@ -168,7 +168,7 @@ pub(super) fn drag<N: Numeric>(
     let mut drag = DragValue::new(value)
         .speed(speed)
         .range(range.clone())
-        // A file may hold a value outside; showing it must not change it.
+        // A file may contain a value outside of the range, which must not change by being shown.
         .clamp_existing_to_range(false)
         .update_while_editing(false)
         .min_size(vec2(width, ui.spacing().interact_size.y))
@@ -182,7 +182,7 @@ pub(super) fn drag<N: Numeric>(
         drag = drag.custom_formatter(move |value, _| text(value));
     }
     let response = ui.add(drag.suffix(suffix));
-    // Leaving the field with its text untouched must not round the value to that text.
+    // Leaving the field without an edit must not round the value to the displayed digits.
     let untouched = !N::INTEGRAL && text(before.to_f64()) == text(value.to_f64());
     if untouched && response.lost_focus() {
         *value = before;
@@ -190,7 +190,7 @@ pub(super) fn drag<N: Numeric>(
     response
 }
 
-/// A whole number of a key without a row of its own, named by the key; dragging and typing reach `most`.
+/// Draws an integer of a key without a row, named by the key's label; `most` is the maximum.
 pub fn whole(ui: &mut Ui, key: &'static Key, value: &mut u32, most: u32, width: f32) {
     let range = Value::of(key, value).within(0.0..=f64::from(most)).range;
     let drag = DragValue::new(value)
@@ -201,7 +201,7 @@ pub fn whole(ui: &mut Ui, key: &'static Key, value: &mut u32, most: u32, width: 
     ui.add(drag).accessible_name(key.label);
 }
 
-/// A hairline at the foot of the field that shows where the value lies in its range.
+/// Draws a thin bar at the bottom of the field that shows the position of the value in its range.
 fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f64>, logarithmic: bool) {
     let (low, high) = (*range.start(), *range.end());
     if response.has_focus() || high - low > 1e5 {
@@ -221,7 +221,7 @@ fn paint_bar(ui: &Ui, response: &Response, value: f64, range: &RangeInclusive<f6
     );
 }
 
-/// The two ways back, on a right click.
+/// Context menu with the opened value and the default.
 pub(super) fn reset_menu<T: PartialEq + Copy>(
     response: &Response,
     value: &mut T,
@@ -241,7 +241,7 @@ pub(super) fn reset_menu<T: PartialEq + Copy>(
     });
 }
 
-/// A small button at the end of the label column, left of a changed field.
+/// Draws the reset button at the end of the label column, left of the field; returns whether it was clicked.
 pub(super) fn reset_button(ui: &mut Ui, field: &Response, name: &str, opened: &str) -> bool {
     let right = field.rect.left() - ui.spacing().item_spacing.x + 2.0;
     let rect = Rect::from_min_max(pos2(right - SLOT, field.rect.top()), pos2(right, field.rect.bottom()));
@@ -252,7 +252,7 @@ pub(super) fn reset_button(ui: &mut Ui, field: &Response, name: &str, opened: &s
     button.on_hover_text(format!("Back to {opened}")).accessible_name(format!("Reset {name}")).clicked()
 }
 
-/// A row with the optional number of a key, given with what it was when opened. `off` stands for its absence.
+/// Draws a row with an optional number of a key, given with its opened value. `off` is the text for `None`.
 pub fn optional_key<N: Numeric + PartialEq>(
     ui: &mut Ui,
     key: &'static Key,
@@ -267,8 +267,8 @@ pub fn optional_key<N: Numeric + PartialEq>(
     });
 }
 
-/// A row with an optional number, given with what it was when opened: a switch, and the number while it
-/// is on.
+/// Draws a row with an optional number, given with its opened value: a checkbox, and the number while it is
+/// checked.
 fn optional<N: Numeric + PartialEq>(
     ui: &mut Ui,
     label: &str,
@@ -287,7 +287,7 @@ fn optional<N: Numeric + PartialEq>(
         }
         match value {
             Some(number) => {
-                // The reset button is the switch's; the number has only its menu.
+                // The reset button belongs to the checkbox; the number has only the context menu.
                 let mut field = style(Value::new(label, number, initial).tip(tip).named(label));
                 field.opened = *field.value;
                 field.default = opened.unwrap_or(initial);
@@ -309,7 +309,7 @@ mod tests {
     use super::*;
     use majorant_core::scene::keys::{self, Type};
 
-    /// What a field reaches is what validation allows, and narrowing it never widens it.
+    /// Fields reach exactly the values that validation allows, and `within` never extends the range.
     #[test]
     fn fields_reach_what_their_keys_allow_and_no_more() {
         let mut fields = 0;

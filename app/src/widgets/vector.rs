@@ -1,4 +1,4 @@
-//! Three coordinates in a row.
+//! Input fields for three coordinates.
 
 use super::number::format_number;
 use super::row::row;
@@ -7,7 +7,7 @@ use egui::Ui;
 use majorant_core::scene::keys::Key;
 use std::ops::RangeInclusive;
 
-/// A row with three numbers.
+/// Row with three numbers.
 pub struct Vector<'a> {
     label: &'a str,
     name: String,
@@ -21,7 +21,7 @@ pub struct Vector<'a> {
 }
 
 impl<'a> Vector<'a> {
-    /// Three numbers with a label, a name that is unique in the window, and their default.
+    /// Creates a row from a label, a name that is unique in the window, a value and its default.
     pub fn new(label: &'a str, name: impl Into<String>, value: &'a mut [f32; 3], default: [f32; 3]) -> Self {
         let range = f64::from(f32::MIN)..=f64::from(f32::MAX);
         Self {
@@ -37,7 +37,7 @@ impl<'a> Vector<'a> {
         }
     }
 
-    /// Three numbers of a key: with its label, unit, meaning, default, and exactly the values that it allows.
+    /// Creates a row from a key, with its label, unit, tooltip, default and range.
     pub fn of(key: &'static Key, name: impl Into<String>, value: &'a mut [f32; 3]) -> Self {
         let default = key.default_value().and_then(|v| v.try_into().ok()).unwrap_or(*value);
         let mut field = Self::new(key.label, name, value, default).tip(key.tip);
@@ -50,42 +50,42 @@ impl<'a> Vector<'a> {
         field
     }
 
-    /// A default of its own, where it is not that of a key.
+    /// Replaces the default of the key.
     #[must_use]
     pub fn defaulting_to(mut self, default: [f32; 3]) -> Self {
         (self.default, self.opened) = (default, default);
         self
     }
 
-    /// What they were when the scene was opened or saved.
+    /// Sets the value when the scene was opened or saved, which the reset button restores.
     #[must_use]
     pub fn opened(mut self, opened: [f32; 3]) -> Self {
         self.opened = opened;
         self
     }
 
-    /// In degrees.
+    /// Sets the unit to degrees.
     #[must_use]
     pub fn degrees(mut self) -> Self {
         (self.unit, self.speed) = ("°", 0.5);
         self
     }
 
-    /// What they mean.
+    /// Sets the tooltip.
     #[must_use]
     pub fn tip(mut self, tip: &'a str) -> Self {
         self.tip = tip;
         self
     }
 
-    /// Shows the row.
+    /// Draws the row.
     pub fn show(self, ui: &mut Ui) {
         let Self { label, name, value, default, opened, unit, speed, range, tip } = self;
         row(ui, label, tip, |ui, _| {
             let gap = 4.0;
             let width = (ui.available_width() - 2.0 * gap) / 3.0;
             let outer = (ui.spacing().item_spacing.x, ui.spacing().button_padding.x);
-            // Three numbers share the room of one.
+            // Three fields have the width of one.
             ui.spacing_mut().button_padding.x = 3.0;
             let mut first = None;
             for (axis, i) in ["x", "y", "z"].iter().zip(0..3) {

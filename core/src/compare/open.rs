@@ -86,7 +86,7 @@ pub fn open(
             return Err(ReferenceError::Target { file, reference: shown, scene: target, check });
         }
         None => notes.push(format!(
-            "{file} does not say which image it shows: it is taken on trust that it is this scene's, in linear sRGB"
+            "{file} does not say which image it shows: it is assumed to show this scene, in linear sRGB"
         )),
         Some(_) => {}
     }

@@ -1,9 +1,9 @@
-//! The χ² test of directions on the sphere, zoomed to where the samples are.
+//! χ² test of directions on the sphere, with bins adapted to the samples.
 //!
-//! The frame's axis is the direction that samples crowd about, its range the widest sample. Rings about
+//! The axis of the frame is the direction of highest concentration, its range the widest sample. Rings about
 //! the axis and sectors of each ring have their edges at quantiles of a pilot run, so that every bin has
-//! about as many samples, whether the density is a needle, a narrow sun in a wide sky, or the same
-//! everywhere. The density is integrated over each bin from sub-points that follow the same quantiles.
+//! about as many samples, whether the density is a sharp peak, a small sun in a bright sky, or uniform.
+//! The density is integrated over each bin at sub-points that follow the same quantiles.
 
 use super::Family;
 use glam::{DVec3, Vec3};
@@ -13,10 +13,10 @@ const PILOT: usize = 65_536;
 const SAMPLES: usize = 200_000;
 const RINGS: usize = 16;
 const SECTORS: usize = 16;
-/// Strata of a ring and of a sector; a ring's stratum has three sub-points, a sector's one.
+/// Strata per ring and per sector; a stratum of a ring has three sub-points, one of a sector has one.
 const PER_RING: usize = 12;
 const PER_SECTOR: usize = 12;
-/// Nodes over 0 to 1 and weights of Gauss and Legendre.
+/// Nodes and weights of Gauss–Legendre quadrature over 0 to 1.
 const GAUSS: [(f64, f64); 3] = [(0.112_701_665, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_335, 5.0 / 18.0)];
 
 /// Polar coordinates about an axis: y = ln(1 + (1 − cos θ)/c) for the median c of 1 − cos θ, which
@@ -30,7 +30,7 @@ struct Polar {
 
 impl Polar {
     fn about(pilot: &[DVec3]) -> Self {
-        // The mean direction, drawn towards the principal axis: two opposite lobes have no mean.
+        // The mean direction, iterated towards the principal axis: two opposite lobes have no mean.
         let mut axis = pilot.iter().sum::<DVec3>().normalize();
         for _ in 0..8 {
             axis = pilot.iter().map(|d| d * d.dot(axis)).sum::<DVec3>().normalize();
@@ -46,7 +46,7 @@ impl Polar {
         [(offset / self.c).ln_1p(), d.dot(self.v).atan2(d.dot(self.u))]
     }
 
-    /// The direction, and its solid angle per dy dφ.
+    /// Direction of a point, and its solid angle per dy dφ.
     fn direction(&self, y: f64, phi: f64) -> (DVec3, f64) {
         let offset = (self.c * y.exp_m1()).min(2.0);
         let sin = (offset * (2.0 - offset)).sqrt();
@@ -55,7 +55,7 @@ impl Polar {
     }
 }
 
-/// One coordinate, cut into bins with as many pilot samples each, and each bin into strata.
+/// One coordinate, divided into bins with equal numbers of pilot samples, and each bin into strata.
 struct Axis {
     bins: Vec<f64>,
     strata: Vec<f64>,
@@ -75,14 +75,14 @@ impl Axis {
         Self { bins: (0..=bins).map(|i| edge(i * per_bin)).collect(), strata }
     }
 
-    /// The bin of a value.
+    /// Index of the bin of a value.
     fn bin(&self, value: f64) -> usize {
         self.bins.partition_point(|e| *e <= value).clamp(1, self.bins.len() - 1) - 1
     }
 }
 
-/// Halves a stratum by its samples until they lie evenly: an edge of the density, as that of a rectangle
-/// or of a bright texel, gets strata of its own.
+/// Splits a stratum at the median of its samples until these are evenly distributed, so that edges of the
+/// density, such as those of a rectangle or a bright texel, are resolved.
 fn split(samples: &[f64], lo: f64, hi: f64, strata: &mut Vec<f64>) {
     let (before, after) = samples.split_at(samples.len() / 2);
     match after.first() {
@@ -95,8 +95,8 @@ fn split(samples: &[f64], lo: f64, hi: f64, strata: &mut Vec<f64>) {
 }
 
 impl Family {
-    /// Directions against their density per steradian, which must integrate to one and be positive
-    /// wherever a sample lies. Returns the mean direction that the density has: ∫ density · direction.
+    /// Tests directions against their density per steradian, which must integrate to one and be positive
+    /// at every sample. Returns the mean direction ∫ density · direction.
     pub fn directions(
         &mut self,
         name: &str,
@@ -113,7 +113,7 @@ impl Family {
         let (pilot, samples) = (draw(PILOT), draw(SAMPLES));
         let polar = Polar::about(&pilot);
         for d in &samples {
-            // A sample on the support's very edge may be rounded off it: look a hair further in too.
+            // A sample on the edge of the support may be rounded out of it: test a point further in, too.
             let inward = (d + (polar.axis - d) * 2e-3).normalize().as_vec3();
             let inside = density(d.as_vec3()) > 0.0 || density(inward) > 0.0;
             assert!(inside, "{name}: a sample at {d}, where the density is zero");
@@ -171,7 +171,7 @@ mod tests {
         Phase::new(&PhaseDoc::HenyeyGreenstein { g })
     }
 
-    /// Whether directions drawn by `sample` pass for such of `density`.
+    /// Whether directions drawn by `sample` pass the test against `density`.
     fn passes(mut sample: impl FnMut(&mut Sampler) -> Vec3, density: impl Fn(Vec3) -> f32) -> bool {
         let mut sampler = Sampler::new(1, 2, 3);
         let test = || {
@@ -191,7 +191,7 @@ mod tests {
         }
     }
 
-    /// Uniform over a cap, whose density integrates to one and is zero beyond.
+    /// Uniform density over a spherical cap, zero outside.
     #[test]
     fn a_cap_that_is_too_narrow_too_wide_or_uneven_is_caught() {
         let frame = Frame::about(Vec3::new(0.6, 0.0, -0.8));

@@ -1,4 +1,4 @@
-//! Volume files for the tests, and what is true of them.
+//! Volume files for the tests, and their ground truth.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ pub mod mutate;
 pub mod truth;
 pub mod write;
 
-/// The folder of test volumes, if this machine has one.
+/// Folder of external test volumes, if `MAJORANT_VOLUMES` is set.
 pub fn volumes() -> Option<PathBuf> {
     let folder = std::env::var_os("MAJORANT_VOLUMES").map(PathBuf::from);
     if folder.is_none() {
@@ -15,12 +15,12 @@ pub fn volumes() -> Option<PathBuf> {
     folder
 }
 
-/// The volumes that are part of the project.
+/// Folder of the volumes that are part of the project.
 pub fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("volumes")
 }
 
-/// Path of a file of the ground truth: generated files are in a folder of their own.
+/// Path of a file of the ground truth, in the folder or in its subfolder of generated files.
 pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
     [folder.join(name), folder.join("corpus").join(name)].into_iter().find(|path| path.is_file())
 }

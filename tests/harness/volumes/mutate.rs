@@ -1,6 +1,6 @@
-//! Damaged copies of files, the same ones in every run.
+//! Damaged copies of files, identical in every run.
 
-/// A small generator of random numbers (SplitMix64, Steele et al. 2014).
+/// Random number generator SplitMix64 (Steele et al. 2014).
 pub struct SplitMix64(pub u64);
 
 impl SplitMix64 {
@@ -12,13 +12,13 @@ impl SplitMix64 {
         z ^ (z >> 31)
     }
 
-    /// A number below `n`.
+    /// Returns a number below `n`.
     pub fn below(&mut self, n: usize) -> usize {
         (self.next_u64() % n as u64) as usize
     }
 }
 
-/// `count` prefixes of the file, as many from its first 4 KiB (headers) as from all of it.
+/// `count` prefixes of the file, half of them within the first 4 KiB (headers).
 pub fn truncations(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
     let mut random = SplitMix64(seed);
     (0..count).map(move |i| {
@@ -27,7 +27,7 @@ pub fn truncations(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item 
     })
 }
 
-/// `count` copies with one byte changed, as many in the first 4 KiB as in all of the file.
+/// `count` copies with one changed byte, half of them within the first 4 KiB.
 pub fn byte_flips(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
     let mut random = SplitMix64(seed);
     (0..count).map(move |i| {
@@ -38,8 +38,8 @@ pub fn byte_flips(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item =
     })
 }
 
-/// `count` copies with one byte changed near the head of a Blosc chunk: its sizes, flags, block
-/// table and split sizes. This is where a decoder loses its way; chunks are found by their look.
+/// `count` copies with one changed byte in the header of a Blosc chunk: sizes, flags, block table and split
+/// sizes, to which decoders are most sensitive. Chunks are found by pattern.
 pub fn blosc_flips(bytes: &[u8], count: usize, seed: u64) -> impl Iterator<Item = Vec<u8>> + '_ {
     let heads: Vec<usize> = (0..bytes.len().saturating_sub(32))
         .filter(|&i| matches!(bytes[i..i + 4], [2, 1, _, 2 | 4 | 6 | 12]))

@@ -1,4 +1,4 @@
-//! Comparison with `truth.json`.
+//! Comparison of grids with the ground truth in `truth.json`.
 
 use std::path::Path;
 
@@ -8,17 +8,17 @@ use majorant_core::io::volume::{
 };
 use serde_json::Value;
 
-/// What became of one grid.
+/// Result of the comparison of one grid.
 #[derive(Debug)]
 pub struct Verdict {
     pub file: String,
     pub grid: String,
     pub kind: String,
-    /// Message of a refusal.
+    /// Error message, if the grid was refused.
     pub refused: Option<String>,
     /// Differences from the truth.
     pub wrong: Vec<String>,
-    /// Whether there is a dense grid, or why not.
+    /// Description of the dense grid, or the reason why there is none.
     pub dense: String,
 }
 
@@ -47,14 +47,14 @@ fn load(truth: &Path) -> Vec<Value> {
     serde_json::from_slice(&std::fs::read(truth).unwrap()).unwrap()
 }
 
-/// Compares all files of `truth` with those in `folder`.
+/// Compares the files in `folder` with all entries of `truth`.
 pub fn compare(folder: &Path, truth: &Path) -> Vec<Verdict> {
     let files = load(truth);
     let name = |file: &Value| file["file"].as_str().unwrap().to_owned();
     files.iter().flat_map(|file| compare_file(folder, &name(file), file)).collect()
 }
 
-/// Compares a file that holds the grids of another one in another version or compression.
+/// Compares a file that contains the grids of another file in another version or compression.
 pub fn compare_rewrite(folder: &Path, truth: &Path, rewrite: &str, original: &str) -> Vec<Verdict> {
     let files = load(truth);
     let file = files.iter().find(|file| file["file"] == original).unwrap();
@@ -158,11 +158,11 @@ fn compare_values(info: &GridInfo, truth: &Value, wrong: &mut Vec<String>) {
     if differ(&background, &background_of(truth)) {
         wrong.push(format!("background {background:?} instead of {}", truth["background"]));
     }
-    // Statistics of the truth include what is not finite.
+    // Statistics of the truth include values that are not finite.
     if info.non_finite.is_some() {
         return;
     }
-    // Statistics of a vector grid concern the sum of its components; see `compare_vectors`.
+    // Statistics of a vector grid are of the sum of its components; see `compare_sums`.
     if matches!(info.background, Some(Background::Vector(_))) {
         return;
     }
@@ -179,7 +179,7 @@ fn compare_values(info: &GridInfo, truth: &Value, wrong: &mut Vec<String>) {
     }
 }
 
-/// Compares the dense grid and its transform. Returns its size, or why there is none.
+/// Compares the dense grid and its transform. Returns its size, or the reason why there is none.
 fn compare_dense(path: &Path, info: &GridInfo, truth: &Value, wrong: &mut Vec<String>) -> String {
     let grid = match read_vdb(path, Some(&info.name), &ReadLimits::default()) {
         Ok(grid) => grid,
@@ -216,7 +216,7 @@ fn compare_blocks(path: &Path, array: &VoxelGrid, wrong: &mut Vec<String>) {
         Ok(Volume::Blocks(blocks)) => blocks,
         Ok(Volume::Array(again)) => {
             if again.values != array.values || again.background == 0.0 && again.channels == 1 {
-                wrong.push("another array where blocks were asked for".to_owned());
+                wrong.push("a different array instead of blocks".to_owned());
             }
             return;
         }
@@ -243,7 +243,7 @@ fn compare_blocks(path: &Path, array: &VoxelGrid, wrong: &mut Vec<String>) {
     }
 }
 
-/// The array that blocks stand for.
+/// Expands blocks and tiles to a dense array.
 fn fill(grid: &BlockGrid) -> Vec<f32> {
     let ([nx, ny, nz], channels) = (grid.size(), grid.channels);
     let mut values = vec![0.0; nx * ny * nz * channels];
@@ -285,7 +285,7 @@ fn compare_sums(grid: &VoxelGrid, info: &GridInfo, truth: &Value, wrong: &mut Ve
     for voxel in grid.values.chunks_exact(grid.channels) {
         let voxel_sum: f64 = voxel.iter().map(|&value| f64::from(value)).sum();
         sum += voxel_sum;
-        // The dense grid does not say which voxels are active; these are for certain.
+        // The dense grid has no activity mask; voxels other than the background are certainly active.
         if voxel.iter().zip(&background).any(|(&value, &outside)| f64::from(value) != outside) {
             (min, max) = (min.min(voxel_sum), max.max(voxel_sum));
         }

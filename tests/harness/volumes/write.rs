@@ -1,7 +1,7 @@
-//! A writer of tiny OpenVDB files: grids of one leaf of 8³ voxels, of any name, class, type and file version.
+//! Writer of tiny OpenVDB files: grids of one leaf of 8³ voxels, of any name, class, type and file version.
 //!
-//! Written after the format description of the readers, so it shows that names and versions are treated as they
-//! should be; that the format is OpenVDB's own is shown by the files that OpenVDB has written.
+//! It follows the same format description as the readers, and serves to test the handling of names and
+//! versions; compatibility with OpenVDB is tested with files written by OpenVDB.
 
 /// One grid to write.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub struct TinyGrid<'a> {
     pub values: &'a str,
     /// Whether a float grid is saved as half floats.
     pub saved_as_half: bool,
-    /// Value of the last voxel; the first has a 512th of it.
+    /// Value of the last voxel; the first has 1/512 of it.
     pub largest: f32,
 }
 
@@ -25,7 +25,7 @@ impl Default for TinyGrid<'_> {
     }
 }
 
-/// A file of these grids; `zip` announces compressed chunks, which are then stored as they are.
+/// Encodes a file with the given grids; with `zip` chunks are declared compressed, but stored uncompressed.
 pub fn vdb(version: u32, zip: bool, grids: &[TinyGrid]) -> Vec<u8> {
     let mut file = b"\x20BDV\0\0\0\0".to_vec();
     for word in [version, 13, 0] {
@@ -51,7 +51,7 @@ pub fn vdb(version: u32, zip: bool, grids: &[TinyGrid]) -> Vec<u8> {
     file
 }
 
-/// Writes everything of a grid but its descriptor; the offset of the leaf values.
+/// Writes a grid without its descriptor; returns the offset of the leaf values.
 fn write_grid(file: &mut Vec<u8>, grid: &TinyGrid, zip: bool) -> u64 {
     file.extend((if zip { 3_u32 } else { 2 }).to_le_bytes()); // zip, active mask
     file.extend(3_u32.to_le_bytes());
@@ -89,10 +89,10 @@ fn write_grid(file: &mut Vec<u8>, grid: &TinyGrid, zip: bool) -> u64 {
     blocks
 }
 
-/// A tag that announces no inactive values, and a chunk.
+/// Writes a tag for no inactive values, and a chunk.
 fn chunk(file: &mut Vec<u8>, values: &[u8], zip: bool, narrowed: bool) {
     file.push(0);
-    // OpenVDB writes nothing for no narrowed values, not even their size.
+    // OpenVDB writes no size for an empty chunk of narrowed values.
     if zip && !(values.is_empty() && narrowed) {
         file.extend((-(values.len() as i64)).to_le_bytes());
     }
@@ -109,7 +109,7 @@ fn bytes(grid: &TinyGrid, value: f32, narrowed: bool) -> Vec<u8> {
     }
 }
 
-/// A number that a half float holds exactly, or zero.
+/// Converts a number to a half float, which must represent it exactly.
 fn half(value: f32) -> u16 {
     if value == 0.0 {
         return 0;

@@ -1,5 +1,5 @@
-//! A line through a rough grid, and the optical depth along it by quadrature: double precision, and
-//! nothing of the renderer's.
+//! A line through a rough grid, and the optical depth along it by quadrature in double precision, independent
+//! of the renderer.
 
 use glam::{DVec3, Vec3};
 use majorant_core::math::Ray;
@@ -7,32 +7,33 @@ use std::path::Path;
 
 const SIZE: [usize; 3] = [5, 4, 6];
 
-/// The same, in the name that raw files have to say it with.
+/// Name of the raw file, which has to contain the size.
 pub const FILE: &str = "rough_5x4x6.raw";
 
-/// Where the box stands, in a scene file; [`place_in_box`] undoes it.
+/// Placement of the box in a scene file; [`place_in_box`] is its inverse.
 pub const PLACEMENT: &str = "{ fit = 1.0, scale = [1.0, 1.3, 0.8], rotate_deg = [0.0, 0.0, 30.0], \
                              translate = [0.2, -0.1, 0.3] }";
 
-/// A line through the box, and the density on it.
+/// A line through the box, and the density along it.
 pub struct Line {
     pub ray: Ray,
-    /// Distances at which it enters the box and leaves it.
+    /// Distance at which the line enters the box.
     pub enter: f64,
+    /// Distance at which the line leaves the box.
     pub exit: f64,
-    /// The largest density of the box.
+    /// Maximum density of the box.
     pub max_density: f64,
-    /// ∫ density from `enter` to each of as many steps.
+    /// ∫ density from `enter` to each of equally spaced points.
     columns: Vec<f64>,
 }
 
-/// Densities of the grid, some of them zero.
+/// Density of a voxel, zero for some.
 fn rough(x: usize, y: usize, z: usize) -> f32 {
     let hash = (x * 7 + y * 13 + z * 29 + x * y * z * 5) % 11;
     if hash < 3 { 0.0 } else { 0.15 * hash as f32 }
 }
 
-/// All of them, x fastest.
+/// All densities, x fastest.
 fn values() -> impl Iterator<Item = f32> {
     let [nx, ny, nz] = SIZE;
     (0..nx * ny * nz).map(move |i| rough(i % nx, i / nx % ny, i / (nx * ny)))
@@ -44,17 +45,17 @@ pub fn write(folder: &Path) {
     std::fs::write(folder.join(FILE), bytes).unwrap();
 }
 
-/// Where in the box a point of the world lies, 0 to 1.
+/// Position of a world point in the box, 0 to 1.
 fn place_in_box(point: DVec3, grid: bool) -> DVec3 {
     let (sin, cos) = 30f64.to_radians().sin_cos();
     let p = point - DVec3::new(0.2, -0.1, 0.3);
     let turned_back = DVec3::new(cos * p.x + sin * p.y, cos * p.y - sin * p.x, p.z);
-    // Fitted, the longest side is 1.
+    // With `fit`, the longest side is 1.
     let sides = if grid { DVec3::from(SIZE.map(|n| n as f64 / 6.0)) } else { DVec3::ONE };
     turned_back / (DVec3::new(1.0, 1.3, 0.8) * sides) + 0.5
 }
 
-/// Trilinear between cell centres, held beyond the outermost.
+/// Trilinear interpolation between cell centres, constant beyond the outermost.
 fn density(place: DVec3) -> f64 {
     let along = |axis: usize| {
         let s = (place[axis] * SIZE[axis] as f64 - 0.5).clamp(0.0, SIZE[axis] as f64 - 1.0);
@@ -73,7 +74,7 @@ fn density(place: DVec3) -> f64 {
 }
 
 impl Line {
-    /// Through the grid, or through the same kind of box of density 1.
+    /// Creates a line through the grid, or through a box of density 1.
     pub fn new(grid: bool) -> Self {
         let ray =
             Ray { origin: Vec3::new(-1.5, 0.4, 0.9), direction: Vec3::new(1.7, -0.6, -0.5).normalize() };

@@ -1,5 +1,5 @@
-//! Analysis of the noise of the selected view: shares of the variance, samples with the largest contributions,
-//! and suggested changes that can be rendered in another view.
+//! Analysis of the noise of the selected view: shares of the variance, samples with the largest
+//! contributions, and suggested changes that can be rendered in another view.
 
 use super::{Cx, Tab, empty};
 use crate::model::Command;
@@ -181,8 +181,8 @@ fn heaviest_ui(ui: &mut Ui, cx: &mut Cx<'_>, heaviest: &Heaviest) {
             }
             let share = format!("{:.1} %", 100.0 * heavy.share);
             ui.label(RichText::new(share).small().monospace().color(palette.text));
-            let story = format!("{}, order {}", heavy.technique, heavy.order);
-            let label = Label::new(RichText::new(story).small().color(palette.weak)).truncate();
+            let summary = format!("{}, order {}", heavy.technique, heavy.order);
+            let label = Label::new(RichText::new(summary).small().color(palette.weak)).truncate();
             ui.add(label).on_hover_text(format!("{:.0} times the mean of its pixel", heavy.times_mean));
         });
     }

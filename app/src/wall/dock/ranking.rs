@@ -300,11 +300,11 @@ fn footnote(ui: &mut Ui, cx: &Cx<'_>, standings: &[Standing]) {
     let text = format!("Over {place}, at {fair}{excluded}. {}", basis(cx, standings));
     let palette = Palette::get(ui);
     ui.label(RichText::new(text).small().color(palette.weak));
-    let drowned = drowned(standings);
-    if !drowned.is_empty() {
+    let noise_limited = noise_limited(standings);
+    if !noise_limited.is_empty() {
         let text = format!(
-            "More than half of the measured error of {drowned} is noise of the reference: it has to be less noisy than \
-             the views."
+            "More than half of the measured error of {noise_limited} is noise of the reference: it has to be less \
+             noisy than the views."
         );
         ui.label(RichText::new(text).small().color(palette.warning));
     }
@@ -331,7 +331,7 @@ fn basis(cx: &Cx<'_>, standings: &[Standing]) -> String {
 }
 
 /// Labels of the views whose measured errors are mostly noise of the reference.
-fn drowned(standings: &[Standing]) -> String {
-    let drowned = |s: &&Standing| s.error("relmse").is_some_and(|e| e.reference_share > 0.5 * e.value);
-    standings.iter().filter(drowned).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ")
+fn noise_limited(standings: &[Standing]) -> String {
+    let limited = |s: &&Standing| s.error("relmse").is_some_and(|e| e.reference_share > 0.5 * e.value);
+    standings.iter().filter(limited).map(|s| s.label.as_str()).collect::<Vec<_>>().join(", ")
 }

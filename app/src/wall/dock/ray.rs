@@ -159,8 +159,8 @@ fn component_ui(ui: &mut Ui, state: &mut RayState, mode: Mode) {
     }
 }
 
-/// Measurement that the controls describe; `None` if a pixel's ray is chosen, but no pixel is picked or the scene
-/// is still being built.
+/// Measurement that the controls describe; `None` if a pixel's ray is chosen, but no pixel is picked or the
+/// scene is still being built.
 pub(crate) fn question(wall: &Wall, state: &RayState) -> Option<RayQuestion> {
     let slot = wall.selected_slot()?;
     let mode = slot.rendered.estimator.mode;

@@ -33,8 +33,8 @@ pub struct UploadedImage {
 }
 
 impl Wall {
-    pub(super) fn upload(&mut self, ctx: &Context, picture: PictureId, print: ViewImage) {
-        let ViewImage { image, snapshot, id, reference, map } = print;
+    pub(super) fn upload(&mut self, ctx: &Context, picture: PictureId, image: ViewImage) {
+        let ViewImage { image, snapshot, id, reference, map } = image;
         // The image may have been requested before the views were reordered.
         if let PictureId::View(view) = picture
             && self.slots.get(view).map(|slot| slot.id) != id
@@ -73,7 +73,7 @@ impl Wall {
             if picture == PictureId::Reference && !self.reference.is_source_of(uploaded.reference.as_ref()) {
                 return false;
             }
-            let map = uploaded.map.as_ref().map(|print| print.map.id);
+            let map = uploaded.map.as_ref().map(|image| image.map.id);
             map.is_none() || map == wanted || wanted.is_none()
         })
     }

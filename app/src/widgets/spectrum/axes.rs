@@ -1,20 +1,21 @@
-//! Axes, curve and strip of colours of a spectrum: painting, and the maths of the axes.
+//! Axes, curve and colour strip of a spectrum plot.
 
 use crate::theme::Palette;
 use crate::widgets::number::format_number;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Rgba, Shape, Stroke, Ui, pos2, vec2};
 use majorant_core::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, wavelength_colour};
 
-/// Height of the strip of colours and of the numbers under it.
+/// Height of the colour strip, in points.
 const STRIP: f32 = 6.0;
+/// Height of the tick labels, in points.
 const TICKS: f32 = 15.0;
 
-/// The axes of a plot on the screen.
+/// Mapping between spectrum values and screen points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axes {
-    /// The plot's frame, without strip and ticks.
+    /// Frame of the plot, without strip and ticks.
     pub frame: Rect,
-    /// The value at its top.
+    /// Value at the top of the frame.
     pub top: f32,
 }
 
@@ -25,17 +26,17 @@ impl Axes {
         frame + STRIP + TICKS
     }
 
-    /// Axes inside a rectangle of that height.
+    /// Creates axes inside a rectangle, whose height should be [`Self::height`].
     #[must_use]
     pub fn within(rect: Rect, top: f32) -> Self {
         Self { frame: rect.with_max_y(rect.bottom() - STRIP - TICKS), top }
     }
 
-    /// The screen point of a wavelength and a value.
+    /// Screen point of a wavelength and a value.
     #[must_use]
     pub fn point(&self, lambda_nm: f32, value: f32) -> Pos2 {
         let x = (lambda_nm - LAMBDA_MIN_NM) / (LAMBDA_MAX_NM - LAMBDA_MIN_NM);
-        // Four points of air, so that markers at 0 and at the top are not cut.
+        // Margin of four points, so that markers at zero and at the top are not clipped.
         let inner = self.frame.shrink2(vec2(0.0, 4.0));
         pos2(
             egui::lerp(self.frame.x_range(), x),
@@ -43,7 +44,7 @@ impl Axes {
         )
     }
 
-    /// The wavelength and value of a screen point.
+    /// Wavelength and value of a screen point.
     #[must_use]
     pub fn value(&self, at: Pos2) -> (f32, f32) {
         let inner = self.frame.shrink2(vec2(0.0, 4.0));
@@ -53,7 +54,7 @@ impl Axes {
         )
     }
 
-    /// Frame, grid, strip and numbers.
+    /// Draws frame, grid, colour strip and tick labels.
     pub fn paint(&self, ui: &Ui, painter: &Painter) {
         let palette = Palette::get(ui);
         painter.rect_filled(self.frame, 2.0, palette.well);
@@ -63,7 +64,7 @@ impl Axes {
             let x = self.point(lambda, 0.0).x;
             painter.vline(x, self.frame.y_range(), faint);
             let y = self.frame.bottom() + STRIP + 2.0;
-            // The last number carries the unit and ends with the frame.
+            // The last tick label has the unit and is aligned with the frame.
             let (at, align, text) = match lambda < 800.0 {
                 true => (pos2(x, y), Align2::CENTER_TOP, format!("{lambda}")),
                 false => (pos2(self.frame.right(), y), Align2::RIGHT_TOP, format!("{lambda} nm")),
@@ -80,7 +81,7 @@ impl Axes {
         painter.add(strip(Rect::from_min_size(self.frame.left_bottom(), vec2(self.frame.width(), STRIP))));
     }
 
-    /// The spectrum's curve, filled below with the colours of its wavelengths.
+    /// Draws the curve of a spectrum, filled below with the colours of the wavelengths.
     pub fn paint_curve(&self, painter: &Painter, spectrum: &Spectrum, colour: Color32) {
         let count = 128_u16;
         let mut mesh = Mesh::default();
@@ -104,13 +105,13 @@ impl Axes {
     }
 }
 
-/// The display colour of a wavelength.
+/// Display colour of a wavelength.
 fn colour_of(lambda_nm: f32) -> Color32 {
     let [r, g, b] = wavelength_colour(lambda_nm);
     Rgba::from_rgb(r, g, b).into()
 }
 
-/// A band with the colour of every wavelength.
+/// Mesh of the colour strip.
 fn strip(rect: Rect) -> Mesh {
     let mut mesh = Mesh::default();
     let count = 94_u16;

@@ -1,4 +1,4 @@
-//! One control point on the plot: dragged, nudged by arrow keys, removed.
+//! Handle of a control point: dragging, arrow keys, removal.
 
 use super::axes::Axes;
 use super::{SpectrumField, model};
@@ -10,10 +10,10 @@ use egui::{
 };
 use majorant_core::spectrum::ControlPoint;
 
-/// Diameter of the area that takes hold of a point.
+/// Size of the interactive area of a point, in points of the screen.
 const GRIP: f32 = 16.0;
 
-/// One point on the plot; returns whether it is being dragged.
+/// Draws a control point and handles its input; returns whether it is being dragged.
 pub(super) fn grip_ui(
     ui: &Ui,
     field: &SpectrumField<'_>,
@@ -54,14 +54,14 @@ pub(super) fn grip_ui(
     let text = format!("{} nm: {}", format_number(point.lambda_nm.into()), format_number(point.value.into()));
     let dragged = response.dragged();
     if dragged {
-        // A tooltip would be hidden while the button is down.
+        // Tooltips are hidden while the button is down.
         paint_value(ui, axes, centre, &text);
     }
     response.on_hover_and_drag_cursor(CursorIcon::Move).on_hover_text(text);
     dragged
 }
 
-/// Arrow keys move a focused point; Shift makes it ten times finer.
+/// Moves a focused point with the arrow keys, in steps ten times smaller with Shift.
 fn nudge(
     ui: &Ui,
     response: &Response,
@@ -88,7 +88,7 @@ fn nudge(
     }
 }
 
-/// Writes a point's numbers beside it, on the side that has room.
+/// Draws the coordinates of a point, on the side that has room.
 fn paint_value(ui: &Ui, axes: &Axes, at: Pos2, text: &str) {
     let palette = Palette::get(ui);
     let font = TextStyle::Small.resolve(ui.style());

@@ -1,12 +1,12 @@
-//! Edits a spectrum: kind, points on a plot, exact numbers, presets.
+//! Spectrum editor: kind, control points on a plot, exact numbers, presets.
 //!
 //! | file | does |
 //! | --- | --- |
-//! | `model.rs` | what can be done to a spectrum, without a widget |
-//! | `axes.rs` | axes, curve, strip of colours |
-//! | `plot.rs` | the plot with what is drawn and clicked on it |
-//! | `grip.rs` | one point on the plot |
-//! | `table.rs` | the points as numbers |
+//! | `model.rs` | edits of a spectrum, independent of widgets |
+//! | `axes.rs` | axes, curve and colour strip |
+//! | `plot.rs` | plot and its input |
+//! | `grip.rs` | handle of a control point |
+//! | `table.rs` | control points as numbers and text |
 
 mod axes;
 mod grip;
@@ -25,32 +25,32 @@ use majorant_core::scene::keys::Key;
 use majorant_core::spectrum::{Quantity, SpectrumDoc, presets};
 use model::Kind;
 
-/// What the edited spectrum stands for.
+/// Properties of the edited spectrum.
 pub struct SpectrumField<'a> {
-    /// Its name, which starts the names of all its widgets.
+    /// Name, which begins the accessible names of all widgets.
     pub name: &'a str,
-    /// Its key: which values make sense, and what they mean.
+    /// Scene key, with range, unit and tooltip.
     pub key: &'static Key,
-    /// The spectrum when the scene was opened or saved.
+    /// Spectrum when the scene was opened or saved.
     pub opened: &'a SpectrumDoc,
-    /// What it is a spectrum of; decides how RGB becomes one.
+    /// Quantity, which determines the upsampling of RGB.
     pub quantity: Quantity,
-    /// The majorant that is drawn over an extinction.
+    /// Majorant drawn over an extinction.
     pub majorant: Option<&'a MajorantDoc>,
 }
 
 impl SpectrumField<'_> {
-    /// The least and the greatest value that the key allows.
+    /// Range of values of the key.
     fn values(&self) -> [f32; 2] {
         self.key.range().map_or([0.0, f32::MAX], |range| [range.min as f32, range.max as f32])
     }
 
-    /// Greatest value if it is of the order of those that are edited, as of a share.
+    /// Maximum of the key if it is at most 1, as of an albedo; it then fixes the value axis.
     fn max(&self) -> Option<f32> {
         Some(self.values()[1]).filter(|most| *most <= 1.0)
     }
 
-    /// What presets have to suit.
+    /// Use by which presets are filtered.
     fn use_(&self) -> presets::Use {
         match (self.quantity, self.max()) {
             (Quantity::Radiance, _) => presets::Use::Light,
@@ -60,7 +60,7 @@ impl SpectrumField<'_> {
     }
 }
 
-/// Shows the editor.
+/// Draws the editor.
 pub fn spectrum_editor(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
     ui.push_id(field.name, |ui| {
         kind_ui(ui, field, doc);
@@ -72,7 +72,7 @@ pub fn spectrum_editor(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectru
         plot::plot_ui(ui, field, doc);
         if let SpectrumDoc::Preset(id) = doc {
             let summary = presets::find(id).map_or("", |p| p.summary);
-            hint(ui, &format!("Preset {id}: {summary}. Drag a point to make it your own."));
+            hint(ui, &format!("Preset {id}: {summary}. Drag a point to edit it."));
         }
         if matches!(doc, SpectrumDoc::Points { .. }) {
             table::points_ui(ui, field, doc);
@@ -85,7 +85,7 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
         let mut kind = model::kind(doc);
         let options = [
             (Kind::Constant, "Constant", "The same value at every wavelength"),
-            (Kind::Points, "Points", "Control points, linear between"),
+            (Kind::Points, "Points", "Control points with linear interpolation"),
             (Kind::Rgb, "RGB", "Linear sRGB components, upsampled to a smooth spectrum"),
         ];
         ui.scope(|ui| {
@@ -106,7 +106,7 @@ fn kind_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
                 }
             }
             ui.separator();
-            if ui.button("As opened").on_hover_text("Take all edits of this spectrum back").clicked() {
+            if ui.button("As opened").on_hover_text("Undo all edits of this spectrum").clicked() {
                 *doc = field.opened.clone();
                 ui.close();
             }
@@ -127,10 +127,10 @@ fn constant_ui(ui: &mut Ui, field: &SpectrumField<'_>, value: &mut f32) {
 }
 
 fn rgb_ui(ui: &mut Ui, field: &SpectrumField<'_>, rgb: &mut [f32; 3]) {
-    // A colour button cannot show, and would clip, what is brighter than white.
+    // A colour button would clip components above 1.
     if rgb.iter().all(|x| *x <= 1.0) {
         row(ui, "Colour", field.key.tip, |ui, _| {
-            // The picker rounds through HSV: only what it really changed may reach the document.
+            // The picker rounds by conversion to HSV: the document is changed only by actual edits.
             let mut picked = *rgb;
             let button = ui.color_edit_button_rgb(&mut picked);
             let button = button.accessible_name(format!("{} colour", field.name));

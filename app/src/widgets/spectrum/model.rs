@@ -1,26 +1,26 @@
-//! What can be done to a spectrum, without a widget: change its kind, add, move and remove points.
+//! Edits of a spectrum, independent of widgets: change its kind, and add, move and remove points.
 
 use majorant_core::spectrum::{
     ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Quantity, Spectrum, SpectrumDoc, presets,
 };
 
-/// Two points never come closer than this, nm.
+/// Minimum distance between two points, nm.
 const GAP_NM: f32 = 1.0;
 
-/// The kinds that the editor offers; a preset is a named set of points.
+/// Kind of a spectrum in the editor; a preset is a named set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// One value.
+    /// Constant value.
     Constant,
     /// Control points.
     Points,
     /// Linear sRGB.
     Rgb,
-    /// A preset.
+    /// Named preset.
     Preset,
 }
 
-/// The kind of a spectrum.
+/// Returns the kind of a spectrum.
 #[must_use]
 pub fn kind(doc: &SpectrumDoc) -> Kind {
     match doc {
@@ -31,7 +31,7 @@ pub fn kind(doc: &SpectrumDoc) -> Kind {
     }
 }
 
-/// The value at a wavelength; of a colour, the component that is nearest to it.
+/// Value at a wavelength; for RGB, the component of its band.
 fn sample(doc: &SpectrumDoc, lambda_nm: f32) -> f32 {
     match doc {
         SpectrumDoc::Rgb([r, g, b]) => match lambda_nm {
@@ -43,12 +43,12 @@ fn sample(doc: &SpectrumDoc, lambda_nm: f32) -> f32 {
     }
 }
 
-/// Three significant digits: a converted spectrum is a starting point, not a measurement.
+/// Rounds to three significant digits, enough for a converted spectrum.
 fn short(value: f32) -> f32 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-/// The spectrum as another kind, as close to what it was as that kind can be.
+/// Converts a spectrum to another kind, by sampling at representative wavelengths.
 #[must_use]
 pub fn converted(doc: &SpectrumDoc, to: Kind) -> SpectrumDoc {
     match to {
@@ -62,7 +62,7 @@ pub fn converted(doc: &SpectrumDoc, to: Kind) -> SpectrumDoc {
     }
 }
 
-/// The points that editing starts from.
+/// Control points with which editing begins.
 #[must_use]
 pub fn points_of(doc: &SpectrumDoc) -> (Vec<ControlPoint>, Outside) {
     doc.control_points().unwrap_or_else(|| {
@@ -72,7 +72,7 @@ pub fn points_of(doc: &SpectrumDoc) -> (Vec<ControlPoint>, Outside) {
     })
 }
 
-/// Adds a point in its place; returns where, or nothing if there is one at that wavelength already.
+/// Inserts a point in order of wavelength; returns its index, or `None` if another point is too close.
 pub fn add(points: &mut Vec<ControlPoint>, at: ControlPoint) -> Option<usize> {
     let at = ControlPoint { lambda_nm: at.lambda_nm.clamp(LAMBDA_MIN_NM, LAMBDA_MAX_NM), ..at };
     let index = points.partition_point(|p| p.lambda_nm < at.lambda_nm);
@@ -84,7 +84,7 @@ pub fn add(points: &mut Vec<ControlPoint>, at: ControlPoint) -> Option<usize> {
     Some(index)
 }
 
-/// Moves a point; it stays between its neighbours and in the visible range, and its value between the two given.
+/// Moves a point, clamped to the range between its neighbours and to the values `[least, most]`.
 pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, [least, most]: [f32; 2]) {
     let low =
         index.checked_sub(1).and_then(|i| points.get(i)).map_or(LAMBDA_MIN_NM, |p| p.lambda_nm + GAP_NM);
@@ -97,14 +97,14 @@ pub fn shift(points: &mut [ControlPoint], index: usize, to: ControlPoint, [least
     }
 }
 
-/// Removes a point, but never the last one.
+/// Removes a point unless it is the only one.
 pub fn remove(points: &mut Vec<ControlPoint>, index: usize) {
     if points.len() > 1 && index < points.len() {
         points.remove(index);
     }
 }
 
-/// A round number at or above the largest value: the top of the plot.
+/// Top of the value axis: a round number above the largest value.
 #[must_use]
 pub fn plot_top(largest: f32) -> f32 {
     if !(largest > 0.0 && largest.is_finite()) {

@@ -1,4 +1,4 @@
-//! The plot of a spectrum: its curve, its points, and the majorant over an extinction.
+//! Plot of a spectrum: curve, control points, and the majorant over an extinction.
 
 use super::axes::Axes;
 use super::{SpectrumField, grip, model};
@@ -7,10 +7,10 @@ use egui::{Id, Pos2, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use majorant_core::scene::MajorantDoc;
 use majorant_core::spectrum::{ControlPoint, LAMBDA_MAX_NM, LAMBDA_MIN_NM, Outside, Spectrum, SpectrumDoc};
 
-/// Height of the plot's frame.
+/// Height of the plot's frame, in points.
 const FRAME: f32 = 104.0;
 
-/// Shows the plot; points are dragged, added and removed on it.
+/// Draws the plot, on which points are added, dragged and removed.
 pub(super) fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
     let id = ui.make_persistent_id("plot");
     let size = vec2(ui.available_width(), Axes::height(FRAME));
@@ -32,7 +32,7 @@ pub(super) fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectrum
         ControlPoint { lambda_nm: lambda.round(), value: tidy(value, axes.top).clamp(least, most) }
     };
     let mut edit: Option<(Vec<ControlPoint>, Outside)> = None;
-    // A click just before makes it a triple click.
+    // A preceding click turns the double click into a triple click.
     let doubled = background.double_clicked() || background.triple_clicked();
     if doubled && let Some(p) = background.interact_pointer_pos() {
         let (mut points, outside) = model::points_of(doc);
@@ -62,7 +62,7 @@ pub(super) fn plot_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut Spectrum
     background.on_hover_text("Double-click adds a point. Drag a point; right-click or Delete removes it.");
 }
 
-/// The top of the value axis; it rests while a point is dragged, or the point would run away.
+/// Top of the value axis. It is fixed while a point is dragged, because rescaling would move the point.
 fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc, spectrum: &Spectrum) -> f32 {
     if let Some(held) = ui.data(|d| d.get_temp::<f32>(id)) {
         return held;
@@ -83,10 +83,10 @@ fn plot_top(ui: &Ui, id: Id, field: &SpectrumField<'_>, doc: &SpectrumDoc, spect
     model::plot_top(largest * factor)
 }
 
-/// Rounds to what a mouse can mean: the power of ten below a three hundredth of the axis.
+/// Rounds to the resolution of the mouse: the power of ten below a three hundredth of the axis.
 fn tidy(value: f32, top: f32) -> f32 {
     let exponent = (top / 300.0).log10().floor();
-    // Dividing by a whole number keeps decimals exact where multiplying by 0.1 would not.
+    // Division by an integer is exact for decimals, multiplication by 0.1 is not.
     let inverse = 10_f32.powf(-exponent);
     if exponent < 0.0 {
         (value * inverse).round() / inverse
@@ -96,7 +96,7 @@ fn tidy(value: f32, top: f32) -> f32 {
     }
 }
 
-/// The majorant in the unit of the extinction: what free flights are sampled from where density is largest.
+/// Draws the majorant in the unit of the extinction, at the maximum of the density.
 fn paint_majorant(
     ui: &Ui,
     painter: &egui::Painter,

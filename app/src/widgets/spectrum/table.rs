@@ -1,4 +1,4 @@
-//! The control points as numbers and as text.
+//! Table of the control points, as numbers and as text.
 
 use super::{SpectrumField, model};
 use crate::theme::Palette;
@@ -10,12 +10,12 @@ use crate::widgets::text::buffered_text;
 use egui::{Button, RichText, Ui, vec2};
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc};
 
-/// Exact numbers: a table, the same as text, and what holds beyond the ends.
+/// Draws the extrapolation mode, the table of points, and the points as text.
 pub(super) fn points_ui(ui: &mut Ui, field: &SpectrumField<'_>, doc: &mut SpectrumDoc) {
     let SpectrumDoc::Points { points, outside } = doc else { return };
-    row(ui, "Beyond the ends", "What the spectrum is outside its first and last point", |ui, _| {
+    row(ui, "Beyond the ends", "Value of the spectrum outside of the first and last point", |ui, _| {
         let options =
-            [(Outside::Hold, "Hold", "The value of the nearest end"), (Outside::Zero, "Zero", "Nothing")];
+            [(Outside::Hold, "Hold", "Value of the nearest end point"), (Outside::Zero, "Zero", "Zero")];
         segmented(ui, &format!("{} beyond the ends", field.name), outside, &options);
     });
     let title = RichText::new(format!("{} points as numbers", points.len())).small();
@@ -73,7 +73,7 @@ fn points_text_ui(ui: &mut Ui, field: &SpectrumField<'_>, points: &mut Vec<Contr
         match SpectrumDoc::parse_points(&text) {
             Ok(parsed) if parsed.iter().all(|p| (least..=most).contains(&p.value)) => *points = parsed,
             Ok(_) => {
-                let message = format!("values from {least} to {most} make sense here");
+                let message = format!("values must lie between {least} and {most}");
                 ui.data_mut(|d| d.insert_temp(problem, message));
             }
             Err(message) => {

@@ -10,7 +10,7 @@ pub(super) fn event_ui(ui: &mut Ui, row: &Row, kept_names: [&str; 3], ledger: &L
     ui.separator();
     ScrollArea::vertical().id_salt("event").auto_shrink(false).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 1.0;
-        story_ui(ui, row, ledger);
+        summary_ui(ui, row, ledger);
         let lines = lines(row, kept_names, ledger.carried.count());
         let palette = Palette::get(ui);
         Grid::new("event at every component").spacing([12.0, 1.0]).min_row_height(0.0).show(ui, |ui| {
@@ -32,7 +32,7 @@ pub(super) fn event_ui(ui: &mut Ui, row: &Row, kept_names: [&str; 3], ledger: &L
 }
 
 /// Draws the quantities that are common to all components.
-fn story_ui(ui: &mut Ui, row: &Row, ledger: &Ledger) {
+fn summary_ui(ui: &mut Ui, row: &Row, ledger: &Ledger) {
     let palette = Palette::get(ui);
     let weak = |ui: &mut Ui, text: String| {
         ui.add(Label::new(RichText::new(text).small().monospace().color(palette.weak)).truncate());

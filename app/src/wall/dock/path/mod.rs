@@ -61,7 +61,7 @@ impl Tab for Path {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         let Some(pixel) = cx.wall.picked else {
-            return invitation(ui, cx);
+            return pick_prompt(ui, cx);
         };
         if cx.inspector.path.pixel != Some(pixel) {
             let state = &mut cx.inspector.path;
@@ -107,7 +107,7 @@ fn part(ui: &mut Ui, rect: egui::Rect) -> Ui {
 }
 
 /// Draws the instructions shown while no pixel is picked.
-fn invitation(ui: &mut Ui, cx: &mut Cx<'_>) {
+fn pick_prompt(ui: &mut Ui, cx: &mut Cx<'_>) {
     empty(ui, "Click a pixel of an image to retrace its paths, event by event.");
     ui.add_space(6.0);
     ui.vertical_centered(|ui| {

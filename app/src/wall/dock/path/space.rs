@@ -247,8 +247,8 @@ impl Eye<'_> {
         self.frame(|within| world.transform_point3((corner + within) / n), stroke);
     }
 
-    /// Draws the phase function at the selected vertex, in the plane through the incident direction that faces
-    /// the camera.
+    /// Draws the phase function at the selected vertex, in the plane through the incident direction that
+    /// faces the camera.
     fn lobe(&self, scene: &Scene, replayed: &Replayed, row: &Row, size: f32) {
         if !matches!(row.step, Step::Scatter | Step::Direction(..) | Step::Connect(..)) {
             return;
