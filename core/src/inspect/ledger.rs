@@ -59,6 +59,8 @@ pub struct Row {
     /// How likely next-event estimation makes it, but for the density of the light. It means something in a connection and from
     /// the turn at a vertex on: at a vertex that was only reached it is still that of the way there.
     pub nee: [Product; 4],
+    /// On a branch by angle how likely its vertex, drawn by angle, makes the path; `None` elsewhere.
+    pub eq: Option<[Product; 4]>,
     /// The numbers that the estimator keeps of this branch, after the event; `None` where it keeps none, as of a
     /// connection whose weight has no density.
     pub kept: Option<WeightRecord>,
@@ -162,6 +164,7 @@ impl Bookkeeper {
             f: densities.f,
             uni: densities.uni,
             nee: densities.nee,
+            eq: (branch == Branch::Angle).then_some(densities.eq),
             kept: densities.kept,
             credit: None,
         });
@@ -265,9 +268,14 @@ impl Bookkeeper {
             Note::LightWalk => self.walk = Some(self.path),
             Note::LightWalkEnds => self.walk = None,
             Note::EquiangularVertex => {
+                self.by_angle = Some(self.path.set_out_by_angle());
                 // From here on there is a third density.
                 self.path.defined = false;
-                self.by_angle = Some(self.path);
+            }
+            Note::VertexByAngle { found, density, choice, kept } => {
+                self.now().scatter_by_angle(&found, density, choice);
+                self.event(i, Step::Scatter, Some(found.point), &[]).found = Some(found);
+                self.keeps(kept);
             }
             Note::EquiangularVertexEnds => (self.by_angle, self.link) = (None, None),
             Note::Credit { technique, emitted, other_density, value, film } => {
@@ -365,18 +373,11 @@ impl Bookkeeper {
                 times(&mut path.uni, &found.tentative);
                 path.value(&emitted, &[&path.uni], count, grey)
             }),
-            Technique::Equiangular => None,
+            Technique::Equiangular => path.value(&emitted, &[&path.uni, &path.nee, &path.eq], count, grey),
         };
         let vertices = path.order + u32::from(technique == Technique::Equiangular);
-        let entry = Credit {
-            technique,
-            order: vertices,
-            nulls: path.nulls,
-            emitted,
-            value,
-            film,
-            by_definition,
-        };
+        let entry =
+            Credit { technique, order: vertices, nulls: path.nulls, emitted, value, film, by_definition };
         self.row(i, Step::Credit, None, &[]).credit = Some(entry);
         if matches!(technique, Technique::Connection | Technique::Equiangular) {
             self.link = None;

@@ -215,7 +215,7 @@ impl<const N: usize> Collision<N> {
 
 impl<const N: usize> Collision<N> {
     /// As it is told, `passed` by the majorants.
-    pub(super) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
+    pub(crate) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
         let c = &self.coefficients;
         CollisionRecord {
             point: self.point,

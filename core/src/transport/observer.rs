@@ -186,6 +186,17 @@ pub enum Note {
     LightWalkEnds,
     /// A vertex is being drawn by angle along the path's ray.
     EquiangularVertex,
+    /// That vertex has been drawn.
+    VertexByAngle {
+        /// The collision there.
+        found: CollisionRecord,
+        /// The density of its distance, the choice of the light included.
+        density: f32,
+        /// The probability with which a connection from there chooses the light.
+        choice: f32,
+        /// What is kept of the path after it.
+        kept: WeightRecord,
+    },
     /// That vertex and its connection have ended.
     EquiangularVertexEnds,
     /// Light is added to the estimate.
