@@ -4,7 +4,7 @@ use super::{Column, Cx, Panel};
 use crate::lab::stats::{count, duration};
 use crate::lab::{Command, Latency};
 use crate::theme::Palette;
-use crate::widgets::{Value, badge, callout, format_number, hint, optional, row};
+use crate::widgets::{Value, badge, callout, format_number, hint, key, optional_key, row};
 use egui::{Align2, Button, Color32, RichText, Role, Sense, TextStyle, Ui, WidgetInfo, vec2};
 use majorant_core::film::Snapshot;
 use majorant_core::scene::Limits;
@@ -216,31 +216,28 @@ fn limits_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let title = RichText::new("Limits, threads, seed").small();
     egui::CollapsingHeader::new(title).id_salt("limits").show_unindented(ui, |ui| {
         let (render, opened) = (&mut cx.draft.render, &cx.opened.render);
-        let tip = "Rendering stops after this many samples per pixel; more can be added later";
-        optional(ui, "Stop at", (&mut render.spp, opened.spp), 1024, "no sample limit", tip, |v| {
-            v.unit("spp").range(1.0..=1e9)
-        });
-        let tip = "Rendering stops after this much time";
-        optional(ui, "Stop after", (&mut render.seconds, opened.seconds), 60.0, "no time limit", tip, |v| {
-            v.unit("s").range(0.1..=1e6).logarithmic()
+        let spp = (&mut render.spp, opened.spp);
+        optional_key(ui, key("render.spp"), spp, 1024, "no sample limit", |v| v.within(1.0..=1e9));
+        let seconds = (&mut render.seconds, opened.seconds);
+        optional_key(ui, key("render.seconds"), seconds, 60.0, "no time limit", |v| {
+            v.within(0.1..=1e6).logarithmic()
         });
         let tip = "Rendering stops after so much CPU time of path tracing, all workers together: what --seconds of \
                    `majorant compare` gives every estimator";
-        let value = (&mut render.cpu_seconds, opened.cpu_seconds);
-        optional(ui, "CPU time", value, 60.0, "no limit of CPU time", tip, |v| {
-            v.unit("s").range(0.1..=1e6).logarithmic()
+        let seconds = (&mut render.cpu_seconds, opened.cpu_seconds);
+        optional_key(ui, key("render.cpu_seconds"), seconds, 60.0, "no limit of CPU time", |v| {
+            v.tip(tip).within(0.1..=1e6).logarithmic()
         });
         let tip = "Rendering stops when the standard error of a pixel, root mean square, is this share of the image's \
                    mean: 0.01 is 1 %. The error is estimated from the samples themselves: paths too rare to have come \
                    yet are not in it";
-        let value = (&mut render.relative_error, opened.relative_error);
-        optional(ui, "Error", value, 0.01, "no error limit", tip, |v| v.range(1e-5..=1.0).logarithmic());
-        let tip = "Worker threads; the picture does not depend on them";
-        optional(ui, "Threads", (&mut render.threads, opened.threads), 1, "one per core", tip, |v| {
-            v.range(1.0..=1024.0)
+        let error = (&mut render.relative_error, opened.relative_error);
+        optional_key(ui, key("render.relative_error"), error, 0.01, "no error limit", |v| {
+            v.tip(tip).within(1e-5..=1.0).logarithmic()
         });
-        let seed = Value::new("Seed", &mut render.seed, 0).opened(opened.seed).range(0.0..=9e15);
-        seed.tip("Selects the random numbers; nothing else is random").show(ui);
+        let threads = (&mut render.threads, opened.threads);
+        optional_key(ui, key("render.threads"), threads, 1, "one per core", |v| v);
+        Value::of(key("render.seed"), &mut render.seed).opened(opened.seed).within(0.0..=9e15).show(ui);
         if let Some(snapshot) = picture(cx) {
             let cpu = duration(snapshot.cpu_seconds);
             hint(ui, &format!("{} threads, {cpu} of CPU time.", snapshot.threads));

@@ -22,5 +22,5 @@ pub use phase_lobe::phase_lobe;
 pub use row::{row, row_of};
 pub use spectrum::{SpectrumField, spectrum_editor};
 pub use text::buffered_text;
-pub use value::{Value, optional, optional_key, whole};
+pub use value::{Value, optional_key, whole};
 pub use vector::Vector;

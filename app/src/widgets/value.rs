@@ -22,6 +22,7 @@ pub struct Value<'a, N> {
     value: &'a mut N,
     name: Option<String>,
     unit: &'a str,
+    /// If it is finite at both ends, a bar shows where the value lies in it.
     range: RangeInclusive<f64>,
     speed: f64,
     logarithmic: bool,
@@ -91,13 +92,6 @@ impl<'a, N: Numeric + PartialEq> Value<'a, N> {
     #[must_use]
     pub fn unit(mut self, unit: &'a str) -> Self {
         self.unit = unit;
-        self
-    }
-
-    /// The allowed range. If it is finite at both ends, a bar shows where the value lies in it.
-    #[must_use]
-    pub fn range(mut self, range: RangeInclusive<f64>) -> Self {
-        self.range = range;
         self
     }
 
@@ -269,7 +263,7 @@ pub fn optional_key<N: Numeric + PartialEq>(
 
 /// A row with an optional number, given with what it was when opened: a switch, and the number while it
 /// is on.
-pub fn optional<N: Numeric + PartialEq>(
+fn optional<N: Numeric + PartialEq>(
     ui: &mut Ui,
     label: &str,
     (value, opened): (&mut Option<N>, Option<N>),
