@@ -2,18 +2,19 @@
 //! definition of f and p; the parts of an image sum to it.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
-use majorant_core::estimator::{PathIndex, REGISTRY, Settings};
+use majorant_core::estimator::{Axis, PathIndex, REGISTRY, Settings};
 use majorant_core::inspect::{
     Branch, Ledger, Product, Recording, Row, Split, Step, Strategies, StrategyPlan,
 };
 use majorant_core::io::{Library, embedded, scene_file};
-use majorant_core::math::Sampler;
+use majorant_core::math::{Sampler, SamplerKind};
+use majorant_core::scene::keys;
 use majorant_core::scene::{
     Absorption, Bookkeeping, DistanceSampling, EmissionDoc, GridRef, LightWalk, Mode, Scene, SceneDoc,
     WhenExceeded, build,
 };
 use majorant_core::session::ViewId;
-use majorant_core::transport::{CancelToken, Note};
+use majorant_core::transport::{CancelToken, Note, Technique};
 use majorant_tests::session::{Watched, job};
 
 /// Scenes in which paths meet everything: colours, grids, grey, surfaces, a glow, a majorant that is exceeded.
@@ -58,7 +59,7 @@ fn frozen(doc: &SceneDoc) -> Scene {
 /// ledger is the path's, and every entry is what the densities say that it should be.
 #[test]
 fn the_ledger_gives_the_sample_bit_by_bit() {
-    let (mut defined, mut entries) = ([0u32; 16], 0u32);
+    let (mut defined, mut entries, mut equiangular) = ([0u32; 16], 0u32, 0u32);
     for (name, doc) in scenes() {
         let scene = frozen(&doc);
         let settings = Settings::new(&doc.estimator, doc.render.seed);
@@ -85,6 +86,7 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
                     entries += 1;
                     let Some(by_definition) = contribution.by_definition else { continue };
                     defined[which] += 1;
+                    equiangular += u32::from(contribution.technique == Technique::Equiangular);
                     let largest = contribution.value.iter().fold(0.0f32, |l, v| l.max(v.abs()));
                     for (value, defined) in contribution.value.iter().zip(by_definition) {
                         let tolerance = 2e-3 * value.abs() + 1e-5 * largest + 1e-30;
@@ -95,7 +97,9 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
         }
     }
     assert!(entries > 20_000, "{entries}");
-    // Paths that a vertex by angle could have made have a third density, which is not written down here.
+    // What a vertex by angle makes has its third density written down; what another technique could have made beside it
+    // has not.
+    assert!(equiangular > 500, "{equiangular}");
     for (entry, defined) in REGISTRY.iter().zip(defined) {
         let has = entry.id != "mitsuba2-volpath";
         assert_eq!(defined > 1500, has, "{}: {defined}", entry.id);
@@ -104,24 +108,54 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
 
 /// What an estimator should keep at a row by the definition of f and the densities, under the names that it uses; `None`
 /// for a number that has no definition there.
-fn kept_by_definition(row: &Row, name: &str, i: usize) -> Option<f64> {
+///
+/// At a vertex that was only reached p_nee is that of the way there, and so is what it is divided by: `vertex` is what
+/// the vertex has added to it.
+fn kept_by_definition(row: &Row, name: &str, i: usize, vertex: AtVertex) -> Option<f64> {
     // The hero's density of the technique that makes the branch.
-    let made_with = if row.branch == Branch::Connection { row.nee[0].ln() } else { row.uni[0].ln() };
+    let made_with = match (row.branch, row.eq) {
+        (Branch::Connection, _) => row.nee[0].ln(),
+        (_, Some(eq)) => eq[0].ln(),
+        _ => row.uni[0].ln(),
+    };
     let by_contribution = |density: Product, f: Product| density.over(f.ln()) * f.over(f.ln()).signum();
     Some(match name {
         "f/P" => row.f[i].over(made_with),
         "p_uni/P" => row.uni[i].over(made_with),
-        "p_nee/P" => row.nee[i].over(made_with),
+        "p_nee/P" => row.nee[i].over(made_with - vertex.density),
         "f" => row.f[i].over(0.0),
         "p_uni" => row.uni[i].over(0.0),
         "p_nee" => row.nee[i].over(0.0),
         "p_uni/f1" => by_contribution(row.uni[i], row.f[0]),
-        "p_nee/f1" => by_contribution(row.nee[i], row.f[0]),
+        "p_nee/f1" => by_contribution(row.nee[i], row.f[0]) * vertex.contribution.exp(),
         "p_uni1/f" => by_contribution(row.uni[0], row.f[i]),
         // Throughput over density; flights enter f as weights that are divided by theirs already.
         "φ" => row.f[i].over(row.uni[0].ln()),
         _ => return None,
     })
+}
+
+/// What a vertex has multiplied the hero's numbers by that p_nee lacks until the path turns; logarithms.
+#[derive(Clone, Copy, Default)]
+struct AtVertex {
+    density: f64,
+    contribution: f64,
+}
+
+impl AtVertex {
+    fn of(row: &Row, note: &Note) -> Self {
+        let ln = |x: f32| f64::from(x).ln();
+        match (note, row.found) {
+            (Note::EquiangularVertexSampled { density, found, .. }, _) => {
+                Self { density: ln(*density), contribution: ln(found.scattering[0]) }
+            }
+            (Note::Drawn { .. }, Some(found)) => {
+                Self { density: ln(found.scattering_density[0]), contribution: ln(found.scattering[0]) }
+            }
+            (Note::Surface { albedo, .. }, _) => Self { density: 0.0, contribution: ln(albedo[0]) },
+            _ => Self::default(),
+        }
+    }
 }
 
 /// At every event of a thousand random paths per estimator and scene, what the estimator keeps is what the definition says
@@ -155,16 +189,28 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                 let recording = Recording::new(&scene, entry.kernel, &settings, at, CancelToken::NEVER);
                 let ledger = Ledger::new(&recording);
                 let count = ledger.carried.count();
+                // The density of scattering at the vertex at hand, on the path and on a branch by angle.
+                let (mut on_path, mut equiangular) = (AtVertex::default(), AtVertex::default());
                 let mut turned = false;
                 for (i, row) in ledger.rows.iter().enumerate() {
                     let what = format!("{name}, {}, {at:?}, row {i}: {row:?}", entry.id);
                     if row.branch == Branch::Path {
-                        match row.step {
-                            Step::Direction(..) => turned = true,
-                            Step::Scatter | Step::Reflect => turned = false,
-                            _ => {}
-                        }
+                        equiangular = AtVertex::default();
                     }
+                    let note = &recording.notes[row.note];
+                    match (row.branch, row.step, row.eq) {
+                        (Branch::Path, Step::Direction(..), _) => on_path = AtVertex::default(),
+                        (Branch::Path, Step::Scatter | Step::Reflect, _) => on_path = AtVertex::of(row, note),
+                        (_, Step::Scatter, Some(_)) => equiangular = AtVertex::of(row, note),
+                        (_, Step::Connect(..), Some(_)) => equiangular = AtVertex::default(),
+                        _ => {}
+                    }
+                    turned |= row.branch == Branch::Path && matches!(row.step, Step::Direction(..));
+                    let vertex = match row.branch {
+                        Branch::Path => on_path,
+                        Branch::Equiangular => equiangular,
+                        _ => AtVertex::default(),
+                    };
                     if throughput && row.branch != Branch::Path {
                         assert_eq!(row.kept, None, "{what}");
                         continue;
@@ -177,16 +223,16 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                     let on_a_flight = matches!(row.step, Step::Collision | Step::Null | Step::Absorb)
                         || !matches!(recording.notes[row.note], Note::Flight { .. })
                             && matches!(row.step, Step::Scatter | Step::Exit);
-                    if throughput && on_a_flight || row.branch == Branch::Equiangular {
+                    if throughput && on_a_flight {
                         continue;
                     }
                     for (number, values) in kept.names.iter().zip(&kept.values) {
-                        // Light is sampled at a turn: between a vertex and that p_nee means nothing.
-                        if number.contains("nee") && row.branch != Branch::Connection && !turned {
+                        // Before the first turn no connection could have made the path: some keep zero for that.
+                        if number.contains("nee") && !turned && values.iter().all(|value| *value == 0.0) {
                             continue;
                         }
                         let expected: Vec<_> =
-                            (0..count).filter_map(|c| kept_by_definition(row, number, c)).collect();
+                            (0..count).filter_map(|c| kept_by_definition(row, number, c, vertex)).collect();
                         let largest = expected.iter().fold(0.0f64, |l, v| l.max(v.abs()));
                         for (value, expected) in values.iter().zip(expected) {
                             let (value, expected) = (f64::from(*value), expected);
@@ -207,6 +253,74 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
     for (entry, checked) in REGISTRY.iter().zip(checked) {
         assert!(checked > 20_000, "{}: {checked}", entry.id);
     }
+}
+
+/// Where a path turns, and into which direction, bit by bit.
+fn turns(recording: &Recording) -> Vec<[u32; 6]> {
+    let turn = |note: &Note| match note {
+        Note::Direction { ray, .. } => {
+            let [x, y, z] = ray.origin.to_array().map(f32::to_bits);
+            let [a, b, c] = ray.direction.to_array().map(f32::to_bits);
+            Some([x, y, z, a, b, c])
+        }
+        _ => None,
+    };
+    recording.notes.iter().filter_map(turn).collect()
+}
+
+/// Estimators whose hero draws the events walk the same path with the same random numbers, whatever they add beside it:
+/// the vertices coincide bit by bit, also where a choice of connections or of weights is another.
+#[test]
+fn estimators_walk_the_same_path() {
+    // What the walk itself is drawn by; every other axis concerns connections and weights.
+    let of_the_walk = [Axis::Absorption, Axis::Distances, Axis::Tracking, Axis::Fault];
+    let (mut vertices, mut walks) = (0, 0);
+    let names = ["plume", "cloud"];
+    let docs = scenes().into_iter().filter(|(name, _)| names.iter().any(|part| name.contains(part)));
+    let samplers = [SamplerKind::Independent, SamplerKind::Lattice, SamplerKind::Sobol];
+    for ((name, mut doc), sampler) in docs.flat_map(|scene| samplers.map(|by| (scene.clone(), by))) {
+        doc.estimator.sampler = sampler;
+        doc.estimator.roulette_depth = None;
+        doc.estimator.max_depth = Some(12);
+        let scene = frozen(&doc);
+        let mut variants = vec![("as it is".to_owned(), doc.clone())];
+        for axis in Axis::ALL.into_iter().filter(|axis| !of_the_walk.contains(axis)) {
+            let key = keys::find(axis.key(), None).unwrap();
+            for value in key.values() {
+                let mut tree = toml::Table::try_from(&doc).unwrap();
+                let (folders, name) = axis.key().rsplit_once('.').unwrap();
+                let folders = folders.split('.').map(str::to_owned);
+                let table = folders.fold(&mut tree, |table, folder| {
+                    table.entry(folder).or_insert(toml::Table::new().into()).as_table_mut().unwrap()
+                });
+                table.insert(name.into(), value.into());
+                let varied: SceneDoc = tree.try_into().unwrap();
+                // What only other documents may combine is refused.
+                if majorant_core::estimator::validate(&varied).is_empty() {
+                    variants.push((format!("{} = {value}", key.path), varied));
+                }
+            }
+        }
+        assert!(variants.len() > 20, "{}", variants.len());
+        for path in 0..60u32 {
+            let at = PathIndex { x: 16 + path * 7 % 32, y: 12 + path * 11 % 24, sample: u64::from(path % 5) };
+            let mut expected = None;
+            for entry in REGISTRY.iter().filter(|entry| entry.hero_draws()) {
+                for (what, doc) in &variants {
+                    let settings = Settings::new(&doc.estimator, doc.render.seed);
+                    let recording = Recording::new(&scene, entry.kernel, &settings, at, CancelToken::NEVER);
+                    let turns = turns(&recording);
+                    walks += 1;
+                    let expected: &Vec<_> = expected.get_or_insert_with(|| {
+                        vertices += turns.len();
+                        turns.clone()
+                    });
+                    assert_eq!(turns, *expected, "{name}, {}, {sampler:?}, {what}, {at:?}", entry.id);
+                }
+            }
+        }
+    }
+    assert!(vertices > 500 && walks > 50_000, "{vertices} vertices, {walks} walks");
 }
 
 /// What the film holds after one sample of every pixel is what the ledgers of its paths say.

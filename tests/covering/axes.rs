@@ -1,109 +1,229 @@
 //! The axes of the covering array, and rows of their values.
+//!
+//! The axes are the keys of the table that affect the estimate, with their values; which estimators use one is said by the
+//! registry. A new key is an axis, or the test of the axes fails; a new value or estimator is covered by existing.
 
 use super::array::Target;
 use super::scene::{Density, Known, Place};
 use majorant_core::estimator::{self, Axis, Entry, REGISTRY};
 use majorant_core::math::Sampler;
 use majorant_core::scene::SceneDoc;
-use std::sync::LazyLock;
+use majorant_core::scene::keys::{self, Affects, Key, Registry, Type};
+use std::collections::BTreeMap;
+use std::sync::{LazyLock, Mutex};
 
-/// A choice with its values. Keys with a dot are keys of a scene; the others are axes of the scenes that the array makes up.
+/// The axis of the kind of grid, which is made up here: four grids that the density may come from.
+pub const DENSITY: &str = "density";
+
+/// Keys that affect the estimate and are no axis, with the reason.
+pub const NO_AXES: [(&str, &str); 2] = [
+    ("render.seed", "it selects the random numbers: every row has its own"),
+    (
+        "estimator.fault",
+        "every value but the default is declared biased, and measured to be by a test of its own",
+    ),
+];
+
+/// Keys that affect the expected image as well, and how it is estimated.
+const IMAGES: [&str; 2] = ["estimator.mode", "medium.precision"];
+
+/// Values of keys that hold numbers, the default first where there is one.
+const NUMBERS: [(&str, &[&str]); 3] = [
+    ("medium.majorant.factor", &["1.0", "0.5", "1.7"]),
+    ("medium.majorant.resolution", &["1", "4"]),
+    ("estimator.roulette_depth", &["16", "1"]),
+];
+
+/// A choice with its values.
 pub struct Values {
     pub key: &'static str,
     /// The axis of the registry, for choices that not every estimator uses.
     pub axis: Option<Axis>,
-    /// As a scene file writes them.
+    /// As a scene file writes them; the first is the default, if there is one.
     pub values: Vec<String>,
 }
 
 impl Values {
+    /// The axis of a key of the table; without values if they are not known.
+    fn of(key: &Key) -> Self {
+        let numbers = NUMBERS.iter().filter(|(path, _)| *path == key.path).flat_map(|(_, values)| *values);
+        let mut values: Vec<String> = match key.value {
+            Type::Bool => ["false", "true"].map(str::to_owned).to_vec(),
+            Type::Id(Registry::Estimators) => REGISTRY.iter().map(|e| written(e.id)).collect(),
+            Type::Choice(_) | Type::Id(_) => key.values().into_iter().map(written).collect(),
+            Type::IntegerOr(_, word) => numbers.map(|v| (*v).to_owned()).chain([written(word)]).collect(),
+            _ => numbers.map(|v| (*v).to_owned()).collect(),
+        };
+        if let Some(default) = key.written_default() {
+            values.sort_by_key(|value| *value != default.to_string());
+        }
+        Self { key: key.path, axis: Axis::ALL.into_iter().find(|axis| axis.key() == key.path), values }
+    }
+
     pub fn used_by(&self, entry: &Entry) -> bool {
         self.axis.is_none_or(|axis| entry.uses(axis))
     }
 
     /// Whether an estimator can have a value: the axis of estimators has one for each.
     pub fn admits(&self, value: usize, entry: &Entry) -> bool {
-        self.key != "estimator.id" || self.values[value] == entry.id
+        self.key != "estimator.id" || self.words(value) == entry.id
+    }
+
+    /// A value without quotation marks.
+    pub fn words(&self, value: usize) -> &str {
+        self.values[value].trim_matches('"')
+    }
+
+    /// The number of a value that is given with or without quotation marks.
+    fn find(&self, text: &str) -> usize {
+        let found = (0..self.values.len()).find(|i| self.words(*i) == text.trim_matches('"'));
+        found.unwrap_or_else(|| panic!("{} = {text}", self.key))
     }
 }
 
-fn choices(key: &'static str, axis: Option<Axis>, values: &[&str]) -> Values {
-    Values { key, axis, values: values.iter().map(|v| (*v).to_owned()).collect() }
+fn written(word: &str) -> String {
+    format!("{word:?}")
+}
+
+/// Keys of the table that affect the estimate, without those of views beside the scene's own.
+pub fn keys_of_the_estimate() -> impl Iterator<Item = &'static Key> {
+    keys::all()
+        .iter()
+        .filter(|key| key.affects == Affects::Estimate || IMAGES.contains(&key.path))
+        .filter(|key| !key.path.starts_with("compare."))
 }
 
 pub static AXES: LazyLock<Vec<Values>> = LazyLock::new(|| {
-    let ids: Vec<_> = REGISTRY.iter().map(|e| e.id).collect();
-    let transmittance: Vec<_> =
-        majorant_core::transmittance::TransmittanceKind::all().iter().map(|k| k.entry().id).collect();
-    vec![
-        choices("estimator.id", None, &ids),
-        choices("estimator.distances", Some(Axis::Distances), &["delta", "weighted-delta", "decomposition"]),
-        choices("medium.majorant.factor", None, &["0.5", "1.0", "1.7"]),
-        choices("medium.majorant.when_exceeded", None, &["weighted", "clamp", "progressive"]),
-        choices("density", None, &["uniform", "constant", "rough", "colours"]),
-        choices("estimator.absorption", Some(Axis::Absorption), &["weighted", "analogue", "roulette"]),
-        choices(
-            "estimator.heuristics.components",
-            Some(Axis::Components),
-            &["balance", "power", "maximum", "hero-only"],
-        ),
-        choices("estimator.heuristics.techniques", Some(Axis::Techniques), &["balance", "power", "maximum"]),
-        choices(
-            "estimator.bookkeeping",
-            Some(Axis::Bookkeeping),
-            &["rescaled", "apart-f32", "apart-f64", "pairwise"],
-        ),
-        choices("estimator.tracking", Some(Axis::Tracking), &["history", "average", "maximum"]),
-        choices("estimator.transmittance", Some(Axis::Transmittance), &transmittance),
-        choices("estimator.lights", Some(Axis::Lights), &["uniform", "power", "contribution"]),
-        choices("estimator.light_sampling", Some(Axis::LightSampling), &["emitter", "product"]),
-        choices("estimator.light_walk", Some(Axis::LightWalk), &["fused", "separate"]),
-        choices("estimator.directions", None, &["phase", "towards-lights", "product"]),
-        choices("estimator.sampler", None, &["independent", "lattice", "sobol"]),
-        choices("estimator.mode", None, &["spectral", "rgb"]),
-        choices("estimator.wavelengths", None, &["sensor", "uniform"]),
-        choices("estimator.roulette_depth", None, &["16", "\"never\"", "1"]),
-        choices("medium.majorant.shared", None, &["false", "true"]),
-        choices("medium.majorant.resolution", None, &["1", "4"]),
-        choices("medium.interpolation", None, &["trilinear", "stochastic"]),
-        choices("medium.precision", None, &["f32", "f16", "u8"]),
-        choices("known", None, &["transmittance", "single", "furnace"]),
-        choices("coloured", None, &["true", "false"]),
-    ]
+    let is_axis = |key: &&Key| NO_AXES.iter().all(|(path, _)| *path != key.path);
+    let mut axes: Vec<_> = keys_of_the_estimate().filter(is_axis).map(Values::of).collect();
+    let densities = Density::ALL.map(|density| written(density.name())).to_vec();
+    axes.push(Values { key: DENSITY, axis: None, values: densities });
+    axes
 });
 
-fn axis(key: &str) -> usize {
+pub fn axis(key: &str) -> usize {
     AXES.iter().position(|a| a.key == key).unwrap_or_else(|| panic!("no axis {key}"))
 }
 
-/// One value of every axis; those of axes that the estimator does not use are at their first.
+/// One value of every axis, and a scene. Axes that the estimator does not use are at their first value.
 #[derive(Clone, Debug)]
-pub struct Row(Vec<usize>);
+pub struct Row {
+    values: Vec<usize>,
+    pub known: Known,
+    pub coloured: bool,
+    /// What the density is multiplied by, in per cent, if not as its values ask.
+    pub percent: Option<u32>,
+    /// What lengths are multiplied by, in per cent.
+    pub size: u32,
+}
+
+/// What is at work in a row: the value of each axis that its estimator uses, and whether it can change anything.
+pub struct AtWork(Vec<Option<(usize, bool)>>);
+
+impl AtWork {
+    /// Whether the row has the values of a target; `idle`: also where they change nothing.
+    pub fn covers(&self, target: &Target, idle: bool) -> bool {
+        target
+            .iter()
+            .all(|(a, value)| self.0[*a].is_some_and(|(has, works)| has == *value && (works || idle)))
+    }
+}
 
 impl Row {
+    /// The first value of every axis, but for some.
+    pub fn plain(estimator: &str, but: &[(&str, &str)]) -> Self {
+        let mut row = Self {
+            values: vec![0; AXES.len()],
+            known: Known::Single,
+            coloured: true,
+            percent: None,
+            size: 100,
+        };
+        row.set("estimator.id", estimator);
+        for (key, value) in but {
+            row.set(key, value);
+        }
+        row
+    }
+
+    /// The rows that differ from defaults by a target and by their scene alone, over all estimators that use its axes.
+    pub fn plainest(target: &Target) -> impl Iterator<Item = Self> {
+        let with = target.clone();
+        let usable = |entry: &&Entry| {
+            with.iter().all(|(a, value)| AXES[*a].used_by(entry) && AXES[*a].admits(*value, entry))
+        };
+        let (place, given) = (axis(DENSITY), target.iter().any(|(a, _)| AXES[*a].key == DENSITY));
+        let densities = if given { 1 } else { AXES[place].values.len() };
+        let mut rows = Vec::new();
+        for entry in REGISTRY.iter().filter(usable) {
+            for density in 0..densities {
+                for known in Known::of(entry) {
+                    for coloured in [true, false] {
+                        let mut row = Self::plain(entry.id, &[]);
+                        (row.known, row.coloured) = (*known, coloured);
+                        row.values[place] = density;
+                        row.take(target);
+                        rows.push(row);
+                    }
+                }
+            }
+        }
+        rows.into_iter()
+    }
+
+    fn take(&mut self, target: &Target) {
+        for (axis, value) in target {
+            self.values[*axis] = *value;
+        }
+    }
+
     /// A row with the values of a target and random ones elsewhere; `None` if its estimator cannot have the target.
     pub fn random(target: &Target, random: &mut Sampler) -> Option<Self> {
         let mut draw = |n: usize| ((random.next_1d() * n as f32) as usize).min(n - 1);
-        let mut row = Self(AXES.iter().map(|axis| draw(axis.values.len())).collect());
-        for (axis, value) in target {
-            row.0[*axis] = *value;
-        }
+        let mut row = Self::plain(REGISTRY[0].id, &[]);
+        row.values = AXES.iter().map(|axis| draw(axis.values.len())).collect();
+        row.coloured = draw(2) == 0;
+        row.take(target);
         let entry = row.entry();
-        let kept = |a: usize| target.iter().any(|(axis, _)| *axis == a);
-        for (a, axis) in AXES.iter().enumerate() {
-            if !axis.used_by(entry) {
-                if kept(a) {
-                    return None;
-                }
-                row.0[a] = 0;
+        row.known = Known::of(entry)[draw(Known::of(entry).len())];
+        for (a, _) in AXES.iter().enumerate().filter(|(_, axis)| !axis.used_by(entry)) {
+            if target.iter().any(|(axis, _)| *axis == a) {
+                return None;
             }
+            row.values[a] = 0;
         }
         Some(row)
     }
 
+    /// The rows of the same estimator that differ from this one by the value of one axis, or by their colours.
+    pub fn neighbours(&self) -> Vec<Self> {
+        let entry = self.entry();
+        let mut rows = Vec::new();
+        let free = |axis: &Values| axis.used_by(entry) && axis.key != "estimator.id";
+        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| free(axis)) {
+            for value in (0..axis.values.len()).filter(|value| *value != self.values[a]) {
+                let mut row = self.clone();
+                row.values[a] = value;
+                rows.push(row);
+            }
+        }
+        rows.push(Self { coloured: !self.coloured, ..self.clone() });
+        rows
+    }
+
     pub fn value(&self, key: &str) -> &str {
         let a = axis(key);
-        &AXES[a].values[self.0[a]]
+        AXES[a].words(self.values[a])
+    }
+
+    pub fn set(&mut self, key: &str, value: &str) {
+        let a = axis(key);
+        self.values[a] = AXES[a].find(value);
+    }
+
+    /// Whether the estimator uses an axis.
+    pub fn uses(&self, key: &str) -> bool {
+        AXES[axis(key)].used_by(self.entry())
     }
 
     pub fn entry(&self) -> &'static Entry {
@@ -111,59 +231,60 @@ impl Row {
     }
 
     pub fn place(&self) -> Place {
+        let density = Density::ALL.into_iter().find(|d| d.name() == self.value(DENSITY)).unwrap();
+        let factor: f32 = self.value("medium.majorant.factor").parse().unwrap();
+        // The weights that make up for an exceeded majorant vary by e^(3τ) over an optical depth of τ.
+        let thin = if factor < 1.0 { 40 } else { 100 };
+        let thin = if self.known == Known::Transmittance { thin / 2 } else { thin };
         Place {
-            known: match self.value("known") {
-                "transmittance" => Known::Transmittance,
-                "single" => Known::Single,
-                _ => Known::Furnace,
-            },
-            density: match self.value("density") {
-                "uniform" => Density::Uniform,
-                "constant" => Density::Constant,
-                "rough" => Density::Rough,
-                _ => Density::Colours,
-            },
-            chromatic: self.value("coloured") == "true",
+            known: self.known,
+            density,
+            chromatic: self.coloured,
             spectral: self.value("estimator.mode") == "spectral",
+            percent: self.percent.unwrap_or(thin),
+            size: self.size,
         }
     }
 
     /// The scene.
     pub fn document(&self) -> SceneDoc {
-        let mut tree = toml::Value::try_from(self.place().document()).unwrap();
-        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| axis.key.contains('.')) {
-            let text = &axis.values[self.0[a]];
-            let table = toml::from_str::<toml::Table>(&format!("v = {text}"))
-                .or_else(|_| toml::from_str::<toml::Table>(&format!("v = {text:?}")));
-            let value = table.unwrap().remove("v").unwrap();
+        static PLACES: Mutex<BTreeMap<Place, toml::Value>> = Mutex::new(BTreeMap::new());
+        static PARSED: Mutex<BTreeMap<&str, toml::Value>> = Mutex::new(BTreeMap::new());
+        let place = self.place();
+        let mut tree = PLACES
+            .lock()
+            .unwrap()
+            .entry(place)
+            .or_insert_with(|| toml::Value::try_from(place.document()).unwrap())
+            .clone();
+        let mut parsed = PARSED.lock().unwrap();
+        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| axis.key != DENSITY) {
+            let text = &axis.values[self.values[a]];
+            let value = parsed.entry(text).or_insert_with(|| {
+                toml::from_str::<toml::Table>(&format!("v = {text}")).unwrap().remove("v").unwrap()
+            });
             let mut at = &mut tree;
             let (folders, name) = axis.key.rsplit_once('.').unwrap();
             for folder in folders.split('.') {
                 at = &mut at.as_table_mut().unwrap()[folder];
             }
-            at.as_table_mut().unwrap().insert(name.into(), value);
+            at.as_table_mut().unwrap().insert(name.into(), value.clone());
         }
+        drop(parsed);
         tree.try_into().unwrap()
     }
 
     /// What is declared of the row: why its image is not held against an answer.
     pub fn rule_against(&self) -> Option<String> {
-        // Without scattering connections have nothing to do.
-        if self.place().known == Known::Transmittance && self.entry().connects() {
-            return Some("known: connections need scattering".into());
-        }
-        // Weights below a majorant that bounds vary the more the longer the paths are.
-        if self.place().known == Known::Furnace && self.value("medium.majorant.factor") == "0.5" {
-            return Some("known: an exceeded majorant is held by single scattering and transmittance".into());
-        }
         let doc = self.document();
         let entry = self.entry();
         if let Some(problem) = estimator::validate(&doc).into_iter().next() {
             return Some(format!("not valid: {problem}"));
         }
-        entry
-            .bias(&doc)
-            .map(|why| format!("biased: {why}"))
+        let bias = entry.bias(&doc);
+        let ruled = || keys::all().iter().any(|key| key.biases.is_some_and(|bias| (bias.holds)(&doc)));
+        assert!(bias.is_none() || ruled(), "{bias:?} by no rule of the table: {}", self.words());
+        bias.map(|why| format!("biased: {why}"))
             .or_else(|| (entry.infinite_variance)(&doc).map(|why| format!("infinite variance: {why}")))
     }
 
@@ -176,80 +297,57 @@ impl Row {
             "estimator.heuristics.components" | "medium.majorant.shared" => !place.achromatic(),
             "estimator.wavelengths" => place.spectral,
             "medium.interpolation" | "medium.precision" | "medium.majorant.resolution" => grid,
-            // Nothing is absorbed in a furnace.
+            // Nothing is absorbed in a furnace, and nothing scatters where all is.
             "estimator.absorption" => place.known != Known::Furnace,
-            // Along single scattering no path reaches it.
-            "estimator.roulette_depth" => place.known == Known::Furnace || self.value(key) != "16",
+            "estimator.directions" | "estimator.roulette_depth" => place.known != Known::Transmittance,
             _ => true,
         }
     }
 
-    /// The values that can change something in this row.
+    /// What is at work in this row.
     pub fn at_work(&self) -> AtWork {
         let entry = self.entry();
         let value = |(a, axis): (usize, &Values)| {
-            (axis.used_by(entry) && self.is_at_work(axis.key)).then_some(self.0[a])
+            axis.used_by(entry).then(|| (self.values[a], self.is_at_work(axis.key)))
         };
         AtWork(AXES.iter().enumerate().map(value).collect())
     }
 
-    /// Roughly how much noisier the row is than a plain one.
+    /// Roughly how much longer the row takes than a plain one.
     pub fn cost(&self) -> f64 {
-        let costly: [(&str, &str, f64); 8] = [
-            ("medium.majorant.factor", "0.5", 2.0),
-            ("estimator.heuristics.components", "hero-only", 3.0),
-            ("estimator.heuristics.components", "maximum", 2.0),
-            ("estimator.heuristics.components", "power", 1.5),
+        let costly = [
+            ("medium.majorant.factor", "0.5", 3.0),
+            ("estimator.id", "equiangular-mis", 2.0),
+            ("estimator.heuristics.components", "maximum", 4.0),
+            ("estimator.heuristics.components", "hero-only", 2.0),
+            ("estimator.heuristics.components", "power", 1.3),
             ("estimator.heuristics.techniques", "maximum", 1.3),
-            ("estimator.wavelengths", "uniform", 3.0),
-            ("estimator.distances", "weighted-delta", 1.5),
-            ("estimator.absorption", "roulette", 1.5),
+            ("estimator.wavelengths", "uniform", 1.5),
+            ("estimator.mode", "spectral", 1.3),
+            ("estimator.sampler", "independent", 1.3),
+            ("estimator.transmittance", "unbiased-marching", 2.0),
+            ("estimator.transmittance", "delta", 1.5),
+            ("estimator.distances", "weighted-delta", 1.3),
+            ("estimator.absorption", "analogue", 1.3),
         ];
-        costly
+        let values: f64 = costly
             .iter()
-            .filter(|(key, value, _)| self.value(key) == *value)
+            .filter(|(key, value, _)| self.uses(key) && self.value(key) == *value)
             .map(|(_, _, factor)| factor)
-            .product()
+            .product();
+        let furnace = self.known == Known::Furnace && self.entry().connects();
+        // Far from the hero's wavelength a path that the hero has made may be worth much.
+        let steep = self.uses("estimator.heuristics.components")
+            && self.value("estimator.heuristics.components") == "maximum"
+            && self.place().spectral;
+        [(furnace, 2.5), (steep, 3.0)].iter().filter(|(has, _)| *has).fold(values, |cost, (_, by)| cost * by)
     }
 
     pub fn words(&self) -> String {
         let entry = self.entry();
         let used = AXES.iter().enumerate().filter(|(_, axis)| axis.used_by(entry));
-        let parts: Vec<_> =
-            used.map(|(a, axis)| axis.values[self.0[a]].trim_matches('"').to_owned()).collect();
-        parts.join(" ")
-    }
-}
-
-/// Values that can change something in a row, by axis.
-pub struct AtWork(Vec<Option<usize>>);
-
-impl AtWork {
-    pub fn covers(&self, target: &Target) -> bool {
-        target.iter().all(|(a, value)| self.0[*a] == Some(*value))
-    }
-}
-
-impl Row {
-    /// The first value of every axis, but for some.
-    pub fn plain(estimator: &str, but: &[(&str, &str)]) -> Self {
-        let mut row = Self(vec![0; AXES.len()]);
-        row.set("estimator.id", estimator);
-        row.set("medium.majorant.factor", "1.0");
-        for (key, value) in but {
-            row.set(key, value);
-        }
-        row
-    }
-
-    pub fn set(&mut self, key: &str, value: &str) {
-        let a = axis(key);
-        self.0[a] =
-            AXES[a].values.iter().position(|v| v == value).unwrap_or_else(|| panic!("{key} = {value}"));
-    }
-
-    /// Whether the estimator uses an axis.
-    pub fn uses(&self, key: &str) -> bool {
-        AXES[axis(key)].used_by(self.entry())
+        let parts: Vec<_> = used.map(|(a, axis)| axis.words(self.values[a])).collect();
+        let colour = if self.coloured { "coloured" } else { "grey" };
+        format!("{} {:?} {colour}", parts.join(" "), self.known)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::truth::{self, Field};
 use majorant_core::check::{Answer, Layout};
+use majorant_core::estimator::Entry;
 use majorant_core::io::{Library, scene_file};
 use majorant_core::scene::SceneDoc;
 use majorant_tests::fixture::npy;
@@ -15,8 +16,16 @@ pub enum Known {
     Transmittance,
     /// Single scattering, by quadrature.
     Single,
-    /// Radiance 1 from everywhere, albedo 1.
+    /// Radiance 1 from everywhere, albedo 1: what the camera sees of it is what does not come through.
     Furnace,
+}
+
+impl Known {
+    /// What is held against an estimator: where nothing scatters there is nothing to connect.
+    pub fn of(entry: &Entry) -> &'static [Self] {
+        const ALL: [Known; 3] = [Known::Single, Known::Furnace, Known::Transmittance];
+        if entry.connects() { &ALL[..2] } else { &ALL }
+    }
 }
 
 /// Where the density comes from.
@@ -28,6 +37,29 @@ pub enum Density {
     Colours,
 }
 
+impl Density {
+    pub const ALL: [Self; 4] = [Self::Uniform, Self::Constant, Self::Rough, Self::Colours];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Constant => "constant",
+            Self::Rough => "rough",
+            Self::Colours => "colours",
+        }
+    }
+
+    /// The kind of density in a scene file, and the file.
+    pub fn kind(self) -> (&'static str, Option<&'static str>) {
+        match self {
+            Self::Uniform => ("uniform", None),
+            Self::Constant => ("grid", Some("constant.npy")),
+            Self::Rough => ("grid", Some("rough.npy")),
+            Self::Colours => ("rgb-grid", Some("colours.npy")),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     pub known: Known,
@@ -35,6 +67,10 @@ pub struct Place {
     /// Whether extinction and albedo depend on the wavelength, or channel.
     pub chromatic: bool,
     pub spectral: bool,
+    /// What the density is multiplied by, in per cent.
+    pub percent: u32,
+    /// What lengths are multiplied by, in per cent; the optical depths stay.
+    pub size: u32,
 }
 
 const EXTINCTION_NM: [(f64, f64); 3] = [(430.0, 1.2), (540.0, 0.5), (620.0, 0.9)];
@@ -50,6 +86,10 @@ impl Place {
         !self.chromatic && self.density != Density::Colours
     }
 
+    fn scale(&self) -> f64 {
+        f64::from(self.percent) / 100.0
+    }
+
     pub fn toml(&self) -> String {
         let (extinction, albedo) = match (self.chromatic, self.spectral) {
             (false, _) => (EXTINCTION_GREY.to_string(), ALBEDO_GREY.to_string()),
@@ -58,42 +98,38 @@ impl Place {
             }
             (true, true) => (points(&EXTINCTION_NM), points(&ALBEDO_NM)),
         };
-        let density = match self.density {
-            Density::Uniform => "density = { kind = \"uniform\" }",
-            Density::Constant => {
-                "density = { kind = \"grid\", file = \"constant.npy\" }\nplacement = { fit = 1.0 }"
-            }
-            Density::Rough => {
-                "density = { kind = \"grid\", file = \"rough.npy\" }\nplacement = { fit = 1.0 }"
-            }
-            Density::Colours => {
-                "density = { kind = \"rgb-grid\", file = \"colours.npy\" }\nplacement = { fit = 1.0 }"
-            }
+        let (kind, file) = self.density.kind();
+        let (file, fit) = match file {
+            Some(file) => (format!(", file = {file:?}"), "fit = 1.0, "),
+            None => (String::new(), ""),
         };
         let albedo = match self.known {
             Known::Transmittance => "0.0".into(),
             Known::Single => albedo,
             Known::Furnace => "1.0".into(),
         };
+        let size = f64::from(self.size) / 100.0;
         let (sky, lamp, seen, depth) = match self.known {
-            Known::Furnace => (1.0, 1.0, true, ""),
             Known::Transmittance => (1.0, 1.0, true, ""),
+            Known::Furnace => (1.0, 1.0, false, ""),
             Known::Single => (truth::SKY_RADIANCE, truth::LAMP_RADIANCE, false, "max_depth = 2"),
         };
         format!(
             "majorant = 1
             [camera]
-            origin = [0.0, 0.0, 60.0]
+            origin = [0.0, 0.0, {:?}]
             target = [0.0, 0.0, 0.0]
-            fov_deg = 0.01
+            fov_deg = 0.001
             [film]
             width = 2
             height = 2
             [medium]
+            scale = {}
             extinction = {extinction}
             albedo = {albedo}
             phase = {{ kind = \"henyey-greenstein\", g = {} }}
-            {density}
+            density = {{ kind = \"{kind}\"{file} }}
+            placement = {{ {fit}scale = {:?} }}
             [[lights]]
             kind = \"environment\"
             scale = {sky:?}
@@ -105,9 +141,12 @@ impl Place {
             scale = {lamp:?}
             [estimator]
             {depth}",
+            60.0 * size,
+            self.scale() / size,
             truth::ASYMMETRY,
-            truth::LAMP,
-            truth::LAMP_RADIUS,
+            truth::EXTENT.map(|x| x * size),
+            truth::LAMP.map(|x| x * size),
+            truth::LAMP_RADIUS * size,
         )
     }
 
@@ -122,16 +161,24 @@ impl Place {
         Answer::uniform(colour, Layout::WHOLE).within(truth::QUADRATURE)
     }
 
+    /// What comes through a medium that is the same everywhere and at every wavelength.
+    pub fn transmittance(&self) -> f64 {
+        (-self.scale() * EXTINCTION_GREY * truth::EXTENT[2]).exp()
+    }
+
     fn colour(&self) -> [f64; 3] {
         let field: &Field = match self.density {
             Density::Uniform | Density::Constant => &truth::CONSTANT,
             Density::Rough => &truth::ROUGH,
             Density::Colours => &truth::COLOURS,
         };
-        let brings = |sigma: [f64; 3], albedo: f64| match self.known {
-            Known::Furnace => 1.0,
-            Known::Transmittance => field.transmittance(sigma),
-            Known::Single => albedo * field.single(sigma),
+        let brings = |sigma: [f64; 3], albedo: f64| {
+            let sigma = sigma.map(|s| s * self.scale());
+            match self.known {
+                Known::Furnace => 1.0 - field.transmittance(sigma),
+                Known::Transmittance => field.transmittance(sigma),
+                Known::Single => albedo * field.single(sigma),
+            }
         };
         if self.spectral {
             return truth::film(|lambda| {

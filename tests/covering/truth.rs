@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use majorant_core::spectrum::{Components, Sampled, Wavelengths};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -10,6 +11,10 @@ pub const SIZE: usize = 5;
 /// Grids hold multiples of this, the largest of every channel 255 of them: each precision holds them exactly.
 const STEP: f32 = 1.0 / 128.0;
 
+/// The medium's size: long where the camera looks along it, so that most paths scatter, and thin to the sides, so that most
+/// leave it again.
+pub const EXTENT: [f64; 3] = [0.5, 0.5, 1.5];
+
 /// Where the lamp stands.
 pub const LAMP: [f64; 3] = [0.9, 1.1, 0.2];
 pub const LAMP_RADIUS: f64 = 0.4;
@@ -17,8 +22,8 @@ pub const LAMP_RADIANCE: f64 = 3.0;
 pub const SKY_RADIANCE: f64 = 0.6;
 pub const ASYMMETRY: f64 = 0.2;
 
-/// Quadrature is good to this: rasters one and a half times as fine differ by at most 1.5·10⁻⁴.
-pub const QUADRATURE: f64 = 3e-4;
+/// Quadrature is good to this.
+pub const QUADRATURE: f64 = 4e-4;
 
 /// Without any pattern, from 1/4 to 255/128: a control is not zero in any cell.
 pub fn rough_values(channels: usize) -> Vec<f32> {
@@ -43,10 +48,10 @@ struct Sample {
     depth: [f64; 3],
 }
 
-/// A medium's density over the unit cube.
+/// A medium's density over its box.
 pub struct Field {
     single: Vec<Sample>,
-    /// Optical depth through the cube along the axis.
+    /// Optical depth through the box along the axis.
     through: [f64; 3],
 }
 
@@ -79,7 +84,7 @@ fn to_face(point: DVec3, direction: DVec3) -> f64 {
     (0..3)
         .map(|axis| {
             let d = direction[axis];
-            if d == 0.0 { f64::INFINITY } else { (0.5 * d.signum() - point[axis]) / d }
+            if d == 0.0 { f64::INFINITY } else { (0.5 * EXTENT[axis] * d.signum() - point[axis]) / d }
         })
         .fold(f64::INFINITY, f64::min)
         .max(0.0)
@@ -91,7 +96,8 @@ fn phase(cosine: f64) -> f64 {
 }
 
 impl Field {
-    fn new(density: impl Fn(DVec3) -> [f64; 3]) -> Self {
+    /// By rasters of a fineness: 1 for the answers.
+    pub fn new(raster: f64, density: impl Fn(DVec3) -> [f64; 3] + Sync) -> Self {
         let column = |from: DVec3, direction: DVec3, length: f64, cells: u32| {
             let mut sum = [0.0; 3];
             integrate(cells, |t| {
@@ -102,31 +108,37 @@ impl Field {
             });
             sum
         };
-        let face = DVec3::new(0.0, 0.0, 0.5);
-        let along = 40;
-        let sky = cap(DVec3::Y, 2.0, 12);
-        let mut single = Vec::new();
-        integrate(along, |s| {
+        let fine = |cells: f64| (raster * cells).round() as u32;
+        let length = EXTENT[2];
+        let face = DVec3::new(0.0, 0.0, 0.5 * length);
+        let along = fine(40.0);
+        let sky = cap(DVec3::Y, 2.0, fine(16.0));
+        let mut places = Vec::new();
+        integrate(along, |s| places.push(s * length));
+        let from = |s: f64| {
             let point = face - DVec3::Z * s;
             let here = density(point);
-            let before = column(face, -DVec3::Z, s, 24);
+            let before = column(face, -DVec3::Z, s, fine(24.0));
             let to_lamp = DVec3::from(LAMP) - point;
             let height = 1.0 - (1.0 - (LAMP_RADIUS / to_lamp.length()).powi(2)).sqrt();
-            let lamp = cap(to_lamp.normalize(), height, 5);
+            let lamp = cap(to_lamp.normalize(), height, fine(5.0));
             // The lamp hides the sky behind it.
             let lights = [(&sky, SKY_RADIANCE), (&lamp, LAMP_RADIANCE - SKY_RADIANCE)];
+            let mut samples = Vec::new();
             for (directions, radiance) in lights {
                 for (omega, solid) in directions {
-                    let after = column(point, *omega, to_face(point, *omega), 12);
-                    single.push(Sample {
-                        weight: radiance * solid * phase(-omega.z) / f64::from(2 * along),
+                    let after = column(point, *omega, to_face(point, *omega), fine(12.0));
+                    samples.push(Sample {
+                        weight: radiance * solid * phase(-omega.z) * length / f64::from(2 * along),
                         density: here,
                         depth: std::array::from_fn(|c| before[c] + after[c]),
                     });
                 }
             }
-        });
-        Self { single, through: column(face, -DVec3::Z, 1.0, 200) }
+            samples
+        };
+        let single = places.par_iter().flat_map_iter(|s| from(*s)).collect();
+        Self { single, through: column(face, -DVec3::Z, length, 200) }
     }
 
     /// Single scattering of albedo 1, where the extinction is the densities weighted by `sigma`.
@@ -135,7 +147,7 @@ impl Field {
         self.single.iter().map(|s| s.weight * dot(&s.density) * (-dot(&s.depth)).exp()).sum()
     }
 
-    /// What comes through the cube.
+    /// What comes through the box.
     pub fn transmittance(&self, sigma: [f64; 3]) -> f64 {
         let t = self.through;
         (-(t[0] * sigma[0] + t[1] * sigma[1] + t[2] * sigma[2])).exp()
@@ -143,22 +155,30 @@ impl Field {
 }
 
 /// Density 1 everywhere.
-pub static CONSTANT: LazyLock<Field> = LazyLock::new(|| Field::new(|_| [1.0, 0.0, 0.0]));
+pub static CONSTANT: LazyLock<Field> = LazyLock::new(|| constant(1.0));
 /// The rough grid.
-pub static ROUGH: LazyLock<Field> = LazyLock::new(|| {
-    let values = rough_values(1);
-    Field::new(|p| [trilinear(&values, 1, p)[0], 0.0, 0.0])
-});
+pub static ROUGH: LazyLock<Field> = LazyLock::new(|| rough(1.0));
 /// The grid of three channels.
-pub static COLOURS: LazyLock<Field> = LazyLock::new(|| {
-    let values = rough_values(3);
-    Field::new(|p| trilinear(&values, 3, p))
-});
+pub static COLOURS: LazyLock<Field> = LazyLock::new(|| colours(1.0));
 
-/// Values at cell centres over the unit cube about the origin, held beyond the outermost.
+pub fn constant(raster: f64) -> Field {
+    Field::new(raster, |_| [1.0, 0.0, 0.0])
+}
+
+pub fn rough(raster: f64) -> Field {
+    let values = rough_values(1);
+    Field::new(raster, |p| [trilinear(&values, 1, p)[0], 0.0, 0.0])
+}
+
+pub fn colours(raster: f64) -> Field {
+    let values = rough_values(3);
+    Field::new(raster, |p| trilinear(&values, 3, p))
+}
+
+/// Values at cell centres over the box about the origin, held beyond the outermost.
 fn trilinear(values: &[f32], channels: usize, p: DVec3) -> [f64; 3] {
     let n = SIZE as f64;
-    let index = (p + 0.5) * n - 0.5;
+    let index = (p / DVec3::from(EXTENT) + 0.5) * n - 0.5;
     let floor = index.floor();
     let f = index - floor;
     let mut sum = [0.0; 3];
@@ -179,20 +199,19 @@ fn trilinear(values: &[f32], channels: usize, p: DVec3) -> [f64; 3] {
 }
 
 /// What the film shows of radiance by wavelength, in linear sRGB.
-pub fn film(radiance: impl Fn(f32) -> f64) -> [f64; 3] {
+pub fn film(radiance: impl Fn(f32) -> f64 + Sync) -> [f64; 3] {
     let step = 2.5f32;
-    let mut sum = [0.0; 3];
-    for i in 0..=188u8 {
-        let lambda = 360.0 + step * f32::from(i);
-        let at = Wavelengths::<1> { lambda_nm: [lambda], density_per_nm: [1.0] };
-        let response = at.to_film(Sampled::ONE);
-        let end = if i == 0 || i == 188 { 0.5 } else { 1.0 };
-        let value = radiance(lambda) * f64::from(step) * end;
-        for c in 0..3 {
-            sum[c] += f64::from(response[c]) * value;
-        }
-    }
-    sum
+    let values: Vec<[f64; 3]> = (0..=188u8)
+        .into_par_iter()
+        .map(|i| {
+            let lambda = 360.0 + step * f32::from(i);
+            let at = Wavelengths::<1> { lambda_nm: [lambda], density_per_nm: [1.0] };
+            let end = if i == 0 || i == 188 { 0.5 } else { 1.0 };
+            let value = radiance(lambda) * f64::from(step) * end;
+            at.to_film(Sampled::ONE).to_array().map(|response| f64::from(response) * value)
+        })
+        .collect();
+    std::array::from_fn(|c| values.iter().map(|value| value[c]).sum())
 }
 
 /// What 1 of red, green and blue is at a wavelength.
@@ -210,4 +229,11 @@ pub fn by_points(points: &[(f64, f64)], lambda: f64) -> f64 {
         (None, Some(end)) => end.1,
         (None, None) => 0.0,
     }
+}
+
+/// Planck's law at 3000 K, 1 at 560 nm.
+pub fn blackbody(lambda_nm: f64) -> f64 {
+    // hc/k over the temperature, in nanometres.
+    let c: f64 = 1.438_776_877e7 / 3000.0;
+    (560.0_f64 / lambda_nm).powi(5) * (c / 560.0).exp_m1() / (c / lambda_nm).exp_m1()
 }

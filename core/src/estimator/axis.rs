@@ -71,6 +71,24 @@ impl Axis {
         }
     }
 
+    /// The scene key that holds the choice.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Absorption => "estimator.absorption",
+            Self::Distances => "estimator.distances",
+            Self::Components => "estimator.heuristics.components",
+            Self::Techniques => "estimator.heuristics.techniques",
+            Self::Bookkeeping => "estimator.bookkeeping",
+            Self::Tracking => "estimator.tracking",
+            Self::Lights => "estimator.lights",
+            Self::LightSampling => "estimator.light_sampling",
+            Self::Transmittance => "estimator.transmittance",
+            Self::LightWalk => "estimator.light_walk",
+            Self::Fault => "estimator.fault",
+        }
+    }
+
     const fn bit(self) -> u32 {
         1 << self as u32
     }
@@ -142,5 +160,45 @@ impl PathSettings {
             self.fault = Fault::default();
         }
         self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::EstimatorDoc;
+    use crate::scene::keys::{self, Affects};
+
+    /// Each axis names a row of the table that affects the estimate, and no two axes name the same one.
+    #[test]
+    fn every_axis_names_a_key_of_its_own() {
+        let mut named: Vec<_> = Axis::ALL.map(Axis::key).to_vec();
+        for path in &named {
+            let key = keys::find(path, None).unwrap_or_else(|| panic!("{path} is no key"));
+            assert_eq!(key.affects, Affects::Estimate, "{path}");
+        }
+        named.sort_unstable();
+        named.dedup();
+        assert_eq!(named.len(), Axis::ALL.len());
+    }
+
+    /// An estimator that uses no axis, or every axis but one, is given the default of that axis and no other change.
+    #[test]
+    fn an_unused_axis_is_put_to_its_default() {
+        let settings = |doc: &EstimatorDoc| crate::estimator::Settings::new(doc, 0).path;
+        for axis in Axis::ALL {
+            let key = keys::find(axis.key(), None).unwrap();
+            let others: Vec<_> = Axis::ALL.into_iter().filter(|other| *other != axis).collect();
+            for value in key.values() {
+                let name = axis.key().trim_start_matches("estimator.");
+                let chosen = settings(&toml::from_str(&format!("{name} = \"{value}\"")).unwrap());
+                let default = settings(&EstimatorDoc::default());
+                let is_default = key.default_value() == Some(value.into());
+                assert_eq!(chosen == default, is_default, "{} = {value}", axis.key());
+                assert_eq!(chosen.limited_to(AxisSet::of(&[axis])), chosen, "{} = {value}", axis.key());
+                assert_eq!(chosen.limited_to(AxisSet::of(&others)), default, "{} = {value}", axis.key());
+                assert_eq!(chosen.limited_to(AxisSet::of(&[])), default, "{} = {value}", axis.key());
+            }
+        }
     }
 }

@@ -22,7 +22,7 @@
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::{Ray, SideStream};
 use crate::medium::LocalMedium;
-use crate::spectrum::{Components, Radiance};
+use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transport::{
     EquiangularWeights, FlightEnd, LightDensities, Note, Passage, Reached, Technique, Trace, WalkWeights,
     World, hero_event,
@@ -144,11 +144,19 @@ fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let (t, density) = passage.sample(pivot, trace.connection.next_1d());
     let mut link = world.pass_by_ratio(&passage.ray, t, path, trace)?;
     let collision = world.collision_at(&passage.ray, t, trace)?;
-    link.scatter_equiangular(&collision, density * probability);
+    let density = density * probability;
+    link.scatter_equiangular(&collision, density);
+    let choice_there = choice.probability(light, collision.point, by);
+    trace.notify(move || Note::EquiangularVertexSampled {
+        found: collision.found(Sampled::ZERO),
+        density,
+        choice: choice_there,
+        weight_record: link.weight_record(),
+    });
 
     let vertex = world.scattering_vertex(collision.point, &passage.ray);
     let aim = world.aim_at(&vertex, light, trace.connection.next_2d())?;
-    let nee = aim.density * choice.probability(light, collision.point, by);
+    let nee = aim.density * choice_there;
     let link = link.connect_equiangular(&aim.outgoing, LightDensities { nee, eq: aim.density });
     let link = world.arrive(&aim, link, trace)?;
     let value = link.connected_equiangular(aim.radiance, world.settings.heuristics);

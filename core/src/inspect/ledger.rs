@@ -62,6 +62,8 @@ pub struct Row {
     /// connections, and from the new direction at a vertex on; at a vertex just reached it is still the
     /// density of the segment that leads there.
     pub nee: [Product; 4],
+    /// Density under equiangular sampling of the vertex, on an equiangular branch; `None` elsewhere.
+    pub eq: Option<[Product; 4]>,
     /// Path weights stored by the estimator for this branch, after the event; `None` where it stores none, as
     /// for a connection whose transmittance has no density.
     pub kept: Option<WeightRecord>,
@@ -166,6 +168,7 @@ impl LedgerBuilder {
             f: densities.f,
             uni: densities.uni,
             nee: densities.nee,
+            eq: (branch == Branch::Equiangular).then_some(densities.eq),
             kept: densities.kept,
             contribution: None,
         });
@@ -270,9 +273,14 @@ impl LedgerBuilder {
             Note::LightWalk => self.walk = Some(self.path),
             Note::LightWalkEnds => self.walk = None,
             Note::EquiangularVertex => {
+                self.equiangular = Some(self.path.begin_equiangular());
                 // From here on there is a third density.
                 self.path.defined = false;
-                self.equiangular = Some(self.path);
+            }
+            Note::EquiangularVertexSampled { found, density, choice, weight_record } => {
+                self.now().scatter_equiangular(&found, density, choice);
+                self.event(i, Step::Scatter, Some(found.point), &[]).found = Some(found);
+                self.keeps(weight_record);
             }
             Note::EquiangularVertexEnds => (self.equiangular, self.link) = (None, None),
             Note::Contribution { technique, emitted, other_density, value, film } => {
@@ -370,7 +378,7 @@ impl LedgerBuilder {
                 times(&mut path.uni, &found.tentative);
                 path.value(&emitted, &[&path.uni], count, grey)
             }),
-            Technique::Equiangular => None,
+            Technique::Equiangular => path.value(&emitted, &[&path.uni, &path.nee, &path.eq], count, grey),
         };
         let vertices = path.order + u32::from(technique == Technique::Equiangular);
         let entry = Contribution {

@@ -10,6 +10,11 @@ pub(super) struct PathDensities {
     pub f: Products,
     pub uni: Products,
     pub nee: Products,
+    /// Density of the path under equiangular sampling of its vertex; valid on an equiangular branch only.
+    pub eq: Products,
+    /// Probability that a connection selects the light at the last vertex, where the density of a connection
+    /// omits it.
+    pub choice: f32,
     /// Numbers of real vertices and of null collisions so far.
     pub order: u32,
     pub nulls: u32,
@@ -26,6 +31,8 @@ impl PathDensities {
         f: [Product::ONE; 4],
         uni: [Product::ONE; 4],
         nee: [Product::ONE; 4],
+        eq: [Product::ONE; 4],
+        choice: 1.0,
         order: 0,
         nulls: 0,
         defined: true,
@@ -34,7 +41,7 @@ impl PathDensities {
     };
 
     pub fn pass(&mut self, optical_depth: &Lanes) {
-        for products in [&mut self.f, &mut self.uni, &mut self.nee] {
+        for products in [&mut self.f, &mut self.uni, &mut self.nee, &mut self.eq] {
             for (product, tau) in products.iter_mut().zip(optical_depth) {
                 *product = product.attenuated(f64::from(*tau));
             }
@@ -46,11 +53,24 @@ impl PathDensities {
         times(&mut self.f, &c.null);
         times(&mut self.uni, &c.null_density);
         times(&mut self.nee, &c.majorant);
+        times(&mut self.eq, &c.majorant);
     }
 
     pub fn scatter(&mut self, c: &CollisionRecord) {
         times(&mut self.f, &c.scattering);
         times(&mut self.uni, &c.scattering_density);
+    }
+
+    /// Starts an equiangular branch at the origin of the path's ray.
+    pub fn begin_equiangular(&self) -> Self {
+        Self { eq: self.uni, defined: true, ..*self }
+    }
+
+    /// Updates the densities for the vertex of an equiangular branch, sampled with this density.
+    pub fn scatter_equiangular(&mut self, c: &CollisionRecord, density: f32, choice: f32) {
+        self.scatter(c);
+        times(&mut self.eq, &[density; 4]);
+        self.choice = choice;
     }
 
     pub fn choose_direction(&mut self, value: f32, density: f32) {
@@ -64,7 +84,8 @@ impl PathDensities {
         link.nee = self.uni;
         times(&mut link.f, &[value; 4]);
         times(&mut link.uni, &[walk_density; 4]);
-        times(&mut link.nee, &[light_density; 4]);
+        times(&mut link.nee, &[light_density * self.choice; 4]);
+        times(&mut link.eq, &[light_density; 4]);
         link
     }
 

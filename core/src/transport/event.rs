@@ -220,7 +220,7 @@ impl<const N: usize> Collision<N> {
 
 impl<const N: usize> Collision<N> {
     /// Record of the collision for an observer, after the majorant optical depth `passed`.
-    pub(super) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
+    pub(crate) fn found(&self, passed: Sampled<N>) -> CollisionRecord {
         let c = &self.coefficients;
         CollisionRecord {
             point: self.point,

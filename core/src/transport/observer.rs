@@ -186,6 +186,17 @@ pub enum Note {
     LightWalkEnds,
     /// A vertex is being drawn by equiangular sampling along the path's ray.
     EquiangularVertex,
+    /// The equiangular vertex has been sampled.
+    EquiangularVertexSampled {
+        /// The collision there.
+        found: CollisionRecord,
+        /// Density of its distance, including the probability of the light.
+        density: f32,
+        /// Probability that a connection from there selects the light.
+        choice: f32,
+        /// Path weights after it.
+        weight_record: WeightRecord,
+    },
     /// The equiangular vertex and its connection have ended.
     EquiangularVertexEnds,
     /// A contribution is added to the estimate.
