@@ -1,6 +1,8 @@
-//! Settings in pairs: a covering array over every choice that changes how an image is estimated, each row held against a
-//! closed form or quadrature with the power of the self-check; what is declared biased is measured to be; what an
-//! estimator does not use leaves its image bit by bit as it is.
+//! Pairwise tests of the settings that affect an estimate.
+//!
+//! Every row of a covering array over these settings is compared with a closed form or quadrature, with the
+//! statistical power of the self-check. Settings declared biased are measured to be biased. Settings that an
+//! estimator does not use leave its image unchanged bit for bit.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -42,7 +44,7 @@ fn run(cases: Vec<Case>, effort: Effort) -> Report {
             let seconds = last.elapsed().as_secs_f64();
             last = std::time::Instant::now();
             println!(
-                "{:9.5} {:9.5} z {:5.2} sees {:5.2} % with {:>9} paths {seconds:5.2} s {:?}  {}",
+                "{:9.5} {:9.5} z {:5.2} detects {:5.2} % with {:>9} paths {seconds:5.2} s {:?}  {}",
                 r.measured,
                 r.expected,
                 r.z,
@@ -56,33 +58,34 @@ fn run(cases: Vec<Case>, effort: Effort) -> Report {
     report.unwrap_or_else(|e| panic!("{e}")).unwrap()
 }
 
-/// The relative bias of a row's mean that is looked for, with 95 % probability.
+/// Relative bias of a row's mean that is detected with 95 % probability.
 const DETECT: f64 = 0.01;
-/// The same for single choices, which bias by more where they do.
+/// Detectable relative bias for single choices, whose biases are larger.
 const DETECT_CHOICE: f64 = 0.02;
-/// The most paths of a row; all rows get by with fewer.
+/// Maximum number of paths per row; every row needs fewer.
 const MAX_PATHS: u64 = 12_000_000;
 
-/// Whether a row would have found a relative bias of this size. One that does not know its noise would not.
-fn sees(row: &majorant_core::check::Row, bias: f64) -> bool {
+/// Whether a row would have detected a relative bias of this size; false if its noise is unknown.
+fn detects(row: &majorant_core::check::Row, bias: f64) -> bool {
     row.detectable <= bias
 }
 
-/// The rows that would have missed a relative bias of this size.
-fn blind(report: &Report, bias: f64) -> Vec<(&str, f64)> {
-    let missing = report.rows.iter().filter(|row| !sees(row, bias));
+/// Rows that would not have detected a relative bias of this size, with their detectable bias.
+fn underpowered(report: &Report, bias: f64) -> Vec<(&str, f64)> {
+    let missing = report.rows.iter().filter(|row| !detects(row, bias));
     missing.map(|row| (row.scene.as_str(), row.detectable)).collect()
 }
 
-/// Every pair of values, and every triple of those that interact, in an unbiased image that is as it should be.
+/// Compares an unbiased image with its reference for every pair of values, and every triple of interacting
+/// axes.
 #[test]
-fn every_pair_of_settings_is_true() {
+fn every_pair_of_settings_matches_its_reference() {
     let began = std::time::Instant::now();
     let array = Array::generate();
     println!("{} targets, {} rows, {:.1} s", array.targets, array.rows.len(), began.elapsed().as_secs_f64());
     for (target, rule) in &array.forbidden {
         println!("left out: {} ({rule})", array::words(target));
-        assert!(!rule.is_empty(), "{} is in no row, and no rule says why", array::words(target));
+        assert!(!rule.is_empty(), "{} is in no row, and no rule forbids it", array::words(target));
     }
     for target in &array.idle {
         println!("idle: {}", array::words(target));
@@ -93,28 +96,28 @@ fn every_pair_of_settings_is_true() {
     println!("{:.1} s", report.seconds);
     let failures: Vec<_> = report.failures().map(|row| (&row.scene, row.measured, row.expected)).collect();
     assert!(failures.is_empty(), "{failures:#?}");
-    assert_eq!(report.rows.len(), array.rows.len(), "nothing is left out");
-    let weak = blind(&report, DETECT);
+    assert_eq!(report.rows.len(), array.rows.len(), "a row was left out");
+    let weak = underpowered(&report, DETECT);
     assert!(weak.is_empty(), "{weak:#?}");
 }
 
-/// Copies of the registry's entries that claim to be unbiased.
+/// Copies of the registry's entries without any declared bias.
 fn unlabelled() -> &'static [Entry] {
     static ENTRIES: std::sync::LazyLock<Vec<Entry>> =
         std::sync::LazyLock::new(|| REGISTRY.iter().map(|e| Entry { bias_of: |_| None, ..*e }).collect());
     &ENTRIES
 }
 
-/// A row with something set besides, to be measured under one estimator.
+/// A row with additional settings, measured under one estimator.
 struct Choice {
     what: String,
     row: Row,
     set: fn(&mut SceneDoc),
-    /// The most paths.
+    /// Maximum number of paths.
     budget: Option<u64>,
-    /// The relative bias that is looked for.
+    /// Relative bias to detect.
     detect: f64,
-    /// The image, if it is not that of the row's scene.
+    /// Reference, if it differs from that of the row's scene.
     answer: Option<Answer>,
 }
 
@@ -124,7 +127,8 @@ impl Choice {
     }
 }
 
-/// Choices that bias, and beside them the same where they do not: every rule of the table of keys is among them.
+/// Biased choices, and the same choices in scenes where they are unbiased, for every bias rule of the table
+/// of keys.
 fn choices() -> Vec<Choice> {
     let mut choices = Vec::new();
     for entry in REGISTRY {
@@ -137,20 +141,21 @@ fn choices() -> Vec<Choice> {
                 choices.push(Choice::new(format!("exceeded, {when}, {density}"), row, |_| ()));
             }
             if row.uses("estimator.transmittance") {
-                // A march takes one step from where it sets out to the side of the box, which is as thick as it is rough.
+                // The small size lets ray marching reach the side of the box in one step, and the scaled
+                // density makes that step optically thick.
                 let mut row = row.clone();
                 row.set("estimator.transmittance", "marching");
                 (row.percent, row.size) = (Some(400), 5);
                 choices.push(Choice::new(format!("marched, {density}"), row, |_| ()));
             }
         }
-        // A medium that glows, and scatters nothing.
+        // An emissive medium without scattering.
         let mut row = Row::plain(entry.id, &[("density", "uniform")]);
         (row.known, row.coloured) = (Known::Transmittance, false);
-        let glows =
+        let emission =
             truth::film(|lambda| (1.0 - row.place().transmittance()) * truth::blackbody(f64::from(lambda)));
         choices.push(Choice {
-            answer: Some(Answer::uniform(glows, Layout::WHOLE)),
+            answer: Some(Answer::uniform(emission, Layout::WHOLE)),
             ..Choice::new("glows", row, |doc| {
                 doc.medium.emission = Some(EmissionDoc::default());
                 doc.lights.clear();
@@ -168,15 +173,17 @@ fn choices() -> Vec<Choice> {
     };
     fault(&rough, None, |doc| doc.estimator.fault = Fault::RouletteOnOneTechnique);
     fault(&rough, None, |doc| doc.estimator.fault = Fault::PhaseInBoth);
-    // The first strikes at collisions whose null density is zero; the second ends flights of more than eight null ones.
+    // The first acts at collisions with null density zero; the second ends flights with more than eight null
+    // collisions.
     fault(&uniform, None, |doc| doc.estimator.fault = Fault::NullByRounding);
     fault(&rough, Some(200_000), |doc| {
         (doc.estimator.fault, doc.medium.majorant.factor) = (Fault::NullCap, 30.0);
     });
-    // The hero's probabilities cancel unless another hero never draws what it does: green, of albedo 0, never scatters.
+    // The hero's probabilities cancel unless another hero never samples the same event: green, with albedo 0,
+    // never scatters.
     let mut row = Row::plain("uni-nee-mis", &[("density", "uniform"), ("estimator.mode", "rgb")]);
     row.set("estimator.absorption", "analogue");
-    let Answer::Known(mut colour) = row.place().answer() else { panic!("it is known") };
+    let Answer::Known(mut colour) = row.place().answer() else { panic!("no known answer") };
     colour[1].mean = 0.0;
     let dark: [fn(&mut SceneDoc); 2] = [
         |doc| doc.medium.albedo = SpectrumDoc::Rgb([0.9, 0.0, 0.5]),
@@ -189,7 +196,8 @@ fn choices() -> Vec<Choice> {
         let answer = Some(Answer::Known(colour.clone()));
         choices.push(Choice { answer, detect: DETECT, ..Choice::new(what, row.clone(), set) });
     }
-    // Products in single precision overflow along the long paths of a dense medium, and their light is lost.
+    // Products in single precision overflow along the long paths of a dense medium, which loses their
+    // contributions.
     for bookkeeping in ["apart-f32", "rescaled"] {
         let mut row = Row::plain("uni-nee-mis", &[("density", "uniform"), ("estimator.mode", "rgb")]);
         row.set("estimator.bookkeeping", bookkeeping);
@@ -199,9 +207,10 @@ fn choices() -> Vec<Choice> {
     choices
 }
 
-/// What is declared biased is measured to be, and what is not is measured to be true: by every rule of the table of keys.
+/// Measures the choices of every bias rule of the table of keys: those declared biased differ from their
+/// reference, all others agree with it.
 #[test]
-fn what_is_declared_biased_is() {
+fn exactly_the_declared_biases_are_measured() {
     let (mut declared, mut cases, mut rules) =
         ([Vec::new(), Vec::new()], [Vec::new(), Vec::new()], BTreeSet::new());
     for (number, choice) in choices().into_iter().enumerate() {
@@ -215,7 +224,7 @@ fn what_is_declared_biased_is() {
         let bias = labelled.bias(&case.doc);
         let ruled = keys::all().iter().filter(|key| key.biases.is_some_and(|b| (b.holds)(&case.doc)));
         let ruled: Vec<_> = ruled.map(|key| key.path).collect();
-        assert!(bias.is_none() || !ruled.is_empty(), "{}: {bias:?} by no rule of the table", case.name);
+        assert!(bias.is_none() || !ruled.is_empty(), "{}: {bias:?} without a rule in the table", case.name);
         if bias.is_some() {
             rules.extend(ruled);
         }
@@ -241,32 +250,33 @@ fn what_is_declared_biased_is() {
         .zip(&declared)
         .filter(|(row, declared)| {
             let differs = matches!(row.verdict, Verdict::Differs { .. } | Verdict::NotFinite { .. });
-            // What is true is held with the power that is asked for.
-            differs != **declared || !**declared && !sees(row, DETECT_CHOICE)
+            // An unbiased choice must be measured with the required power.
+            differs != **declared || !**declared && !detects(row, DETECT_CHOICE)
         })
         .collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// With a fiftieth of their paths rows do not have the power that the test of every pair asserts.
+/// With a fiftieth of their paths, rows lack the statistical power that the pairwise test requires.
 #[test]
-fn a_fiftieth_of_the_samples_is_refused() {
+fn a_fiftieth_of_the_paths_lacks_power() {
     let rows = ["uni-nee-mis", "nee", "spectral-mis", "spectral-tracking"]
         .map(|id| Row::plain(id, &[("density", "rough"), ("estimator.mode", "rgb")]));
     let cases: Vec<_> = rows.iter().enumerate().map(|(i, row)| case(i, row)).collect();
     let effort = Effort { detect: DETECT, max_paths: MAX_PATHS, ..Effort::DEEP };
     let report = run(cases.clone(), effort);
-    assert_eq!(blind(&report, DETECT), []);
+    assert_eq!(underpowered(&report, DETECT), []);
     for (mut case, row) in cases.into_iter().zip(&report.rows) {
         case.budget = Some(row.paths / 50);
         let report = run(vec![case], effort);
-        assert_eq!(blind(&report, DETECT).len(), 1, "{:#?}", report.rows);
+        assert_eq!(underpowered(&report, DETECT).len(), 1, "{:#?}", report.rows);
     }
 }
 
-/// An axis that an estimator does not use changes no bit of its image; one that it uses changes some.
+/// An axis that an estimator does not use leaves its image unchanged bit for bit; every axis that it uses
+/// changes it.
 #[test]
-fn unused_axes_leave_images_as_they_are() {
+fn unused_axes_leave_images_unchanged() {
     let paths = |row: &Row, entry: &Entry| -> Vec<[u32; 3]> {
         let doc = row.document();
         let scene = build(&doc, &mut scene::files()).unwrap();
@@ -297,14 +307,14 @@ fn unused_axes_leave_images_as_they_are() {
                 }
             }
             if changed != axis.used_by(entry) {
-                wrong.push(format!("{}: {} changes {changed}", entry.id, axis.key));
+                wrong.push(format!("{}: {} changes the image: {changed}", entry.id, axis.key));
             }
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// A key that affects the estimate is an axis with values, or in the list of those that are none, with a reason.
+/// Every key that affects the estimate is an axis with values or is listed in `NO_AXES` with a reason.
 #[test]
 fn every_key_of_the_estimate_is_an_axis() {
     for key in axes::keys_of_the_estimate() {
@@ -312,7 +322,7 @@ fn every_key_of_the_estimate_is_an_axis() {
         let reason = axes::NO_AXES.iter().find(|(path, _)| *path == key.path);
         assert!(
             values.is_some_and(|n| n >= 2) != reason.is_some(),
-            "{} affects the estimate: give it values, or say why it is no axis",
+            "{} affects the estimate: add values for it, or a reason to `NO_AXES`",
             key.path
         );
     }
@@ -323,21 +333,21 @@ fn every_key_of_the_estimate_is_an_axis() {
         let is_axis = AXES.iter().any(|a| a.axis == Some(axis));
         assert!(is_axis != axes::NO_AXES.iter().any(|(path, _)| *path == axis.key()), "{axis:?}");
     }
-    // Grids are of every kind that a scene can have.
+    // The densities cover every kind that a scene file accepts.
     let kinds = keys::find("medium.density.kind", None).unwrap().values();
     let used: BTreeSet<_> = scene::Density::ALL.map(|density| density.kind().0).into();
     assert_eq!(used, kinds.into_iter().collect());
 }
 
-/// Coarser rasters agree with the answers within the error that these claim.
+/// Quadrature on coarser grids agrees with the reference within the stated error.
 #[test]
-fn quadrature_is_as_good_as_it_claims() {
+fn quadrature_error_is_within_its_bound() {
     let fields = [
         (&*truth::CONSTANT, truth::constant(0.8)),
         (&*truth::ROUGH, truth::rough(0.8)),
         (&*truth::COLOURS, truth::colours(0.8)),
     ];
-    // A raster of four fifths errs by 25/16 of the answers' error, and so differs from them by 9/16 of it.
+    // At 4/5 of the resolution the error is 25/16 of the reference's error, so the difference is 9/16 of it.
     for (field, coarser) in fields {
         for sigma in [[0.9, 0.0, 0.0], [0.36, 0.0, 0.0], [0.5, 0.4, 0.3]] {
             let (a, b) = (field.single(sigma), coarser.single(sigma));

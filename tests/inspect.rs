@@ -1,5 +1,7 @@
-//! Paths taken apart: the books of a path give its sample bit by bit, and what estimators keep agrees with the
-//! definition of f and p; the parts of an image sum to it.
+//! Tests of path inspection.
+//!
+//! The ledger of a path reproduces its sample bit for bit, the path weights stored by the estimators agree
+//! with the definitions of f and p, and the contributions to an image sum to the image.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::estimator::{Axis, PathIndex, REGISTRY, Settings};
@@ -17,7 +19,8 @@ use majorant_core::session::ViewId;
 use majorant_core::transport::{CancelToken, Note, Technique};
 use majorant_tests::session::{Watched, job};
 
-/// Scenes in which paths meet everything: colours, grids, grey, surfaces, a glow, a majorant that is exceeded.
+/// Scenes that cover every kind of event: chromatic and achromatic media, grids, surfaces, emission and an
+/// exceeded majorant.
 fn scenes() -> Vec<(String, SceneDoc)> {
     let mut scenes: Vec<_> = embedded::SCENES
         .iter()
@@ -29,7 +32,7 @@ fn scenes() -> Vec<(String, SceneDoc)> {
         change(&mut doc);
         scenes.push((name.to_owned(), doc));
     };
-    vary("rgb, analogue, walks apart", &|doc| {
+    vary("rgb, analogue, separate walks", &|doc| {
         doc.estimator.mode = Mode::Rgb;
         doc.estimator.absorption = Absorption::Analogue;
         doc.estimator.light_walk = LightWalk::Separate;
@@ -39,7 +42,7 @@ fn scenes() -> Vec<(String, SceneDoc)> {
         doc.medium.majorant.when_exceeded = WhenExceeded::Weighted;
         doc.estimator.roulette_depth = Some(2);
     });
-    vary("glowing, decomposed", &|doc| {
+    vary("emissive, decomposed", &|doc| {
         let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
         doc.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
         doc.estimator.distances = DistanceSampling::Decomposition;
@@ -55,10 +58,10 @@ fn frozen(doc: &SceneDoc) -> Scene {
     build(doc, &mut Library::default()).unwrap()
 }
 
-/// A thousand random paths per estimator and scene: the same bits with somebody looking on as without, the sum of the
-/// ledger is the path's, and every entry is what the densities say that it should be.
+/// Checks a thousand random paths per estimator and scene: the sample has the same bits with and without an
+/// observer, the sum of the ledger equals the sample, and every contribution follows from the densities.
 #[test]
-fn the_ledger_gives_the_sample_bit_by_bit() {
+fn ledger_reproduces_the_sample_bit_for_bit() {
     let (mut defined, mut entries, mut equiangular) = ([0u32; 16], 0u32, 0u32);
     for (name, doc) in scenes() {
         let scene = frozen(&doc);
@@ -97,8 +100,8 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
         }
     }
     assert!(entries > 20_000, "{entries}");
-    // What a vertex by angle makes has its third density written down; what another technique could have made beside it
-    // has not.
+    // The density of equiangular sampling is recorded for contributions of an equiangular vertex, not for
+    // those of the other techniques.
     assert!(equiangular > 500, "{equiangular}");
     for (entry, defined) in REGISTRY.iter().zip(defined) {
         let has = entry.id != "mitsuba2-volpath";
@@ -106,13 +109,13 @@ fn the_ledger_gives_the_sample_bit_by_bit() {
     }
 }
 
-/// What an estimator should keep at a row by the definition of f and the densities, under the names that it uses; `None`
-/// for a number that has no definition there.
+/// Path weight of component `i` at a row by the definitions of f and the densities, under the estimator's
+/// name for it; `None` for a weight without a definition.
 ///
-/// At a vertex that was only reached p_nee is that of the way there, and so is what it is divided by: `vertex` is what
-/// the vertex has added to it.
+/// At a vertex just reached, p_nee is still the density of the segment that leads there, and so is its
+/// divisor: `vertex` holds the factors of the vertex itself.
 fn kept_by_definition(row: &Row, name: &str, i: usize, vertex: AtVertex) -> Option<f64> {
-    // The hero's density of the technique that makes the branch.
+    // The hero's density under the technique that samples the branch.
     let made_with = match (row.branch, row.eq) {
         (Branch::Connection, _) => row.nee[0].ln(),
         (_, Some(eq)) => eq[0].ln(),
@@ -129,13 +132,14 @@ fn kept_by_definition(row: &Row, name: &str, i: usize, vertex: AtVertex) -> Opti
         "p_uni/f1" => by_contribution(row.uni[i], row.f[0]),
         "p_nee/f1" => by_contribution(row.nee[i], row.f[0]) * vertex.contribution.exp(),
         "p_uni1/f" => by_contribution(row.uni[0], row.f[i]),
-        // Throughput over density; flights enter f as weights that are divided by theirs already.
+        // Throughput over density; free flights enter f as weights already divided by their density.
         "φ" => row.f[i].over(row.uni[0].ln()),
         _ => return None,
     })
 }
 
-/// What a vertex has multiplied the hero's numbers by that p_nee lacks until the path turns; logarithms.
+/// Logarithms of a vertex's factors for the hero, which p_nee does not contain until a new direction is
+/// sampled.
 #[derive(Clone, Copy, Default)]
 struct AtVertex {
     density: f64,
@@ -158,10 +162,10 @@ impl AtVertex {
     }
 }
 
-/// At every event of a thousand random paths per estimator and scene, what the estimator keeps is what the definition says
-/// after that event: not that before it, and not another branch's.
+/// At every event of a thousand random paths per estimator and scene, the stored path weights equal their
+/// definitions after that event: not before it, and not on another branch.
 #[test]
-fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
+fn stored_weights_match_their_definitions_after_every_event() {
     let mut scenes = scenes();
     let plume = scenes.iter().find(|(name, _)| name.contains("plume")).unwrap().1.clone();
     for bookkeeping in [Bookkeeping::ApartF32, Bookkeeping::ApartF64, Bookkeeping::Pairwise] {
@@ -189,7 +193,7 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                 let recording = Recording::new(&scene, entry.kernel, &settings, at, CancelToken::NEVER);
                 let ledger = Ledger::new(&recording);
                 let count = ledger.carried.count();
-                // The density of scattering at the vertex at hand, on the path and on a branch by angle.
+                // Factors of scattering at the current vertex, on the path and on an equiangular branch.
                 let (mut on_path, mut equiangular) = (AtVertex::default(), AtVertex::default());
                 let mut turned = false;
                 for (i, row) in ledger.rows.iter().enumerate() {
@@ -215,11 +219,12 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                         assert_eq!(row.kept, None, "{what}");
                         continue;
                     }
-                    // A walk of its own that has hit something adds nothing and keeps nothing.
+                    // A separate light walk ends at a scattering event: it adds no contribution and stores no
+                    // weights.
                     if row.branch == Branch::LightWalk && row.step == Step::Scatter {
                         continue;
                     }
-                    let kept = row.kept.unwrap_or_else(|| panic!("nothing is kept: {what}"));
+                    let kept = row.kept.unwrap_or_else(|| panic!("no weights stored: {what}"));
                     let on_a_flight = matches!(row.step, Step::Collision | Step::Null | Step::Absorb)
                         || !matches!(recording.notes[row.note], Note::Flight { .. })
                             && matches!(row.step, Step::Scatter | Step::Exit);
@@ -227,7 +232,8 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                         continue;
                     }
                     for (number, values) in kept.names.iter().zip(&kept.values) {
-                        // Before the first turn no connection could have made the path: some keep zero for that.
+                        // Before the first new direction no connection can sample the path; some estimators
+                        // store zero for p_nee.
                         if number.contains("nee") && !turned && values.iter().all(|value| *value == 0.0) {
                             continue;
                         }
@@ -236,14 +242,14 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
                         let largest = expected.iter().fold(0.0f64, |l, v| l.max(v.abs()));
                         for (value, expected) in values.iter().zip(expected) {
                             let (value, expected) = (f64::from(*value), expected);
-                            // Beyond what single precision holds there is nothing to compare.
+                            // Values outside the range of single precision are not compared.
                             if !(1e-30..1e30).contains(&largest) || !largest.is_finite() {
                                 continue;
                             }
                             checked[which] += 1;
                             let tolerance = 3e-3 * expected.abs() + 1e-5 * largest;
                             let off = (value - expected).abs();
-                            assert!(off <= tolerance, "{number} {value}, by definition {expected}: {what}");
+                            assert!(off <= tolerance, "{number} is {value}, should be {expected}: {what}");
                         }
                     }
                 }
@@ -255,7 +261,7 @@ fn what_is_kept_at_an_event_is_what_the_definition_says_after_it() {
     }
 }
 
-/// Where a path turns, and into which direction, bit by bit.
+/// Bits of the origin and direction of every ray that leaves a vertex of a path.
 fn turns(recording: &Recording) -> Vec<[u32; 6]> {
     let turn = |note: &Note| match note {
         Note::Direction { ray, .. } => {
@@ -268,11 +274,12 @@ fn turns(recording: &Recording) -> Vec<[u32; 6]> {
     recording.notes.iter().filter_map(turn).collect()
 }
 
-/// Estimators whose hero draws the events walk the same path with the same random numbers, whatever they add beside it:
-/// the vertices coincide bit by bit, also where a choice of connections or of weights is another.
+/// Estimators whose hero draws the events trace the same path from the same random numbers, whichever
+/// contributions they add: the vertices coincide bit for bit, also under different settings of connections
+/// and weights.
 #[test]
 fn estimators_walk_the_same_path() {
-    // What the walk itself is drawn by; every other axis concerns connections and weights.
+    // Axes that affect the sampling of the walk; every other axis affects only connections and weights.
     let of_the_walk = [Axis::Absorption, Axis::Distances, Axis::Tracking, Axis::Fault];
     let (mut vertices, mut walks) = (0, 0);
     let names = ["plume", "cloud"];
@@ -283,7 +290,7 @@ fn estimators_walk_the_same_path() {
         doc.estimator.roulette_depth = None;
         doc.estimator.max_depth = Some(12);
         let scene = frozen(&doc);
-        let mut variants = vec![("as it is".to_owned(), doc.clone())];
+        let mut variants = vec![("unchanged".to_owned(), doc.clone())];
         for axis in Axis::ALL.into_iter().filter(|axis| !of_the_walk.contains(axis)) {
             let key = keys::find(axis.key(), None).unwrap();
             for value in key.values() {
@@ -295,7 +302,7 @@ fn estimators_walk_the_same_path() {
                 });
                 table.insert(name.into(), value.into());
                 let varied: SceneDoc = tree.try_into().unwrap();
-                // What only other documents may combine is refused.
+                // Values that are invalid in this document are skipped.
                 if majorant_core::estimator::validate(&varied).is_empty() {
                     variants.push((format!("{} = {value}", key.path), varied));
                 }
@@ -323,9 +330,9 @@ fn estimators_walk_the_same_path() {
     assert!(vertices > 500 && walks > 50_000, "{vertices} vertices, {walks} walks");
 }
 
-/// What the film holds after one sample of every pixel is what the ledgers of its paths say.
+/// After one sample per pixel, the film holds the totals of the ledgers of its paths.
 #[test]
-fn the_film_holds_what_the_ledgers_say() {
+fn film_equals_the_ledgers_of_its_paths() {
     let (_, mut doc) = scenes().remove(0);
     doc.render.spp = Some(1);
     for entry in REGISTRY {
@@ -342,9 +349,9 @@ fn the_film_holds_what_the_ledgers_say() {
     }
 }
 
-/// However an image is taken apart, the parts sum to it, and their shares of its variance to one.
+/// Under every split, the contributions sum to the image and their shares of its variance to one.
 #[test]
-fn the_parts_of_an_image_sum_to_it() {
+fn contributions_sum_to_the_image() {
     for (name, mut doc) in scenes() {
         (doc.film.width, doc.film.height) = (16, 12);
         let scene = frozen(&doc);
@@ -379,7 +386,7 @@ fn the_parts_of_an_image_sum_to_it() {
 }
 
 #[test]
-fn parts_are_named_by_how_they_came_about() {
+fn contributions_are_named_by_their_split() {
     let (_, mut doc) = scenes().into_iter().find(|(name, _)| name.contains("plume")).unwrap();
     doc.estimator.max_depth = Some(2);
     (doc.film.width, doc.film.height) = (16, 12);

@@ -1,14 +1,15 @@
-//! One path, all its makers: whichever hero and technique makes a path, what they add sums to what the path is worth.
+//! Contributions of all heroes and techniques to one path sum to its integrand.
 //!
 //! ```text
 //!   (1/C) Σ_{h,t} P_{h,t} v_{h,t,j} = f_j
 //! ```
 //!
-//! P is the density with which hero h and technique t make the path: computed here in double precision from what is
-//! *drawn* (free flights, the part of the medium, the event at a number, directions). v is what the estimator adds for it, from
-//! the walk's weights for the walk's term and the connection's for the connection's. f is the integrand, from the
-//! coefficients. With the balance heuristic this says that the weights of one path sum to one: a mistake on one side only,
-//! which changes an image's mean by a per cent, is off by as much here, without noise.
+//! P is the density with which hero h and technique t sample the path, computed here in double precision from
+//! the *sampled* quantities (free flights, the part of the medium, the event for a random number,
+//! directions). v is the estimator's contribution, from the walk's weights for unidirectional sampling and
+//! from the connection's weights for next-event estimation. f is the integrand, from the coefficients. With
+//! the balance heuristic this states that the weights of one path sum to one: an error on one side only that
+//! changes the mean of an image by one per cent causes the same deviation here, without noise.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use glam::Vec3;
@@ -27,29 +28,29 @@ use majorant_core::transport::{
 };
 use majorant_tests::fixture::npy;
 
-/// What single precision leaves of a product of a dozen factors.
+/// Relative rounding error of a product of a dozen factors in single precision.
 const ROUNDING: f64 = 2e-4;
 
-/// A collision on a ray: where, and what happens there.
+/// Collision on a ray: its distance and event.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     t: f32,
     event: Event,
-    /// Whether it belongs to the control, where the medium is taken as two parts.
+    /// Whether the collision is with the control, if the medium is decomposed into control and residual.
     control: bool,
 }
 
-/// A stretch of a path, up to a scattering vertex or to a light.
+/// Segment of a path, up to a scattering vertex or a light.
 #[derive(Clone, Debug)]
 struct Stretch {
     ray: Ray,
-    /// In order; all null but the last one of a stretch that scatters.
+    /// Collisions in order; all are null except the last one of a segment that ends in scattering.
     steps: Vec<Step>,
-    /// Where a stretch to a light ends.
+    /// Distance to the light, for a segment that ends there.
     end: f32,
 }
 
-/// Optical depth of the majorants from `from` to `to` along a ray, per component.
+/// Majorant optical depth from `from` to `to` along a ray, per component.
 fn majorant_depth<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     ray: &Ray,
@@ -69,7 +70,7 @@ fn majorant_depth<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     depth
 }
 
-/// The place of a collision on a ray, with the segment that it lies in; `None` in empty space.
+/// World and medium position of a collision on a ray, and its majorant segment; `None` in empty space.
 fn segment_at<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     ray: &Ray,
@@ -81,7 +82,7 @@ fn segment_at<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     Some((ray.at(t), inside.at(local), segment))
 }
 
-/// The probability with which an event is drawn at a collision, found from the draw itself.
+/// Probability of an event at a collision, found by bisection of the sampling routine.
 fn probability<const N: usize>(collision: &Collision<N>, event: Event) -> f64 {
     let order = |e: Event| match e {
         Event::Absorption => 0,
@@ -90,7 +91,7 @@ fn probability<const N: usize>(collision: &Collision<N>, event: Event) -> f64 {
     };
     let total = collision.tentative.hero();
     let at = |u: f64| order(collision.event_at((u * f64::from(total)) as f32));
-    // Numbers below which the event comes no later than `last`.
+    // Upper end of the random numbers that yield an event no later than `last` in the order.
     let up_to = |last: i32| {
         if at(1.0 - 1e-7) <= last {
             return 1.0;
@@ -106,11 +107,11 @@ fn probability<const N: usize>(collision: &Collision<N>, event: Event) -> f64 {
     up_to(k) - up_to(k - 1)
 }
 
-/// A density, or a value, by component; products are formed here.
+/// Running products of the path density and the integrand.
 struct Term<const N: usize> {
-    /// Density of the maker so far.
+    /// Density under the sampling hero and technique.
     p: f64,
-    /// The integrand.
+    /// Integrand, per component.
     f: [f64; N],
 }
 
@@ -122,8 +123,8 @@ impl<const N: usize> Term<N> {
     }
 }
 
-/// Follows a stretch as the walk makes it: P by what is drawn, f by the coefficients, and the estimator's weights.
-/// `None` if this hero cannot make it.
+/// Updates P, f and the estimator's weights for a segment sampled by the walk: P from the sampling
+/// probabilities, f from the coefficients. Returns `None` if this hero cannot sample the segment.
 fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     stretch: &Stretch,
@@ -199,7 +200,7 @@ fn pass<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
     weights.pass(Sampled(depth.map(|d| d as f32)));
 }
 
-/// Follows null collisions as a connection makes them: every tentative collision is taken as null.
+/// Updates the terms for a connection, where ratio tracking treats every tentative collision as null.
 fn by_ratio<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
     world: &World<'_, L, C, N>,
     (ray, steps, end): (&Ray, &[Step], f32),
@@ -232,7 +233,8 @@ fn outgoing<const N: usize, W: WalkWeights<N>>(
     weights.choose_direction(outgoing);
 }
 
-/// What all makers add for a path, over f, per component in the order of hero 0.
+/// Sum of the contributions of all heroes and techniques to a path, and its integrand, per component in the
+/// order of hero 0.
 struct Sums<const N: usize> {
     sums: [f64; N],
     f: [f64; N],
@@ -245,14 +247,14 @@ impl<const N: usize> Sums<N> {
 
     fn add(&mut self, hero: usize, term: &Term<N>, value: Sampled<N>) {
         for j in 0..N {
-            // Component j of hero 0 is component j − hero of this one.
+            // Component j of hero 0 is component j − hero of this hero.
             let own = (j + N - hero) % N;
             self.sums[j] += term.p * f64::from(value[own]) / N as f64;
             self.f[j] = term.f[own];
         }
     }
 
-    /// A path that no hero can begin with has no makers, and nothing to hold.
+    /// Asserts that the sums equal the integrand; a path that no hero can sample is skipped.
     fn assert(&self, what: &str) {
         if self.f.iter().any(|f| f.is_nan()) {
             return;
@@ -261,7 +263,7 @@ impl<const N: usize> Sums<N> {
         for (sum, f) in self.sums.iter().zip(self.f) {
             assert!(
                 (sum - f).abs() <= ROUNDING * (f.abs() + 1e-2 * largest),
-                "{what}: {:?} for {:?}",
+                "{what}: {:?}, should be {:?}",
                 self.sums,
                 self.f
             );
@@ -269,7 +271,7 @@ impl<const N: usize> Sums<N> {
     }
 }
 
-/// A path to a light at the end of its last stretch.
+/// Path to a light at the end of its last segment.
 struct Path {
     stretches: Vec<Stretch>,
     light: usize,
@@ -283,7 +285,7 @@ struct Setup<'a, M> {
 }
 
 impl<M: Medium> Setup<'_, M> {
-    /// The world as hero number `hero` of the path's components sees it.
+    /// World whose hero is component `hero` of the path.
     fn world<C: Components<N>, const N: usize>(
         &self,
         path: &Path,
@@ -299,7 +301,7 @@ impl<M: Medium> Setup<'_, M> {
         }
     }
 
-    /// Unidirectional sampling alone, next-event estimation alone, and both.
+    /// Checks unidirectional sampling, next-event estimation, and their combination.
     fn two_techniques<W: Weights<N>, C: Components<N>, const N: usize>(&self, path: &Path, what: &str) {
         let (mut uni, mut nee, mut both) = (Sums::<N>::new(), Sums::<N>::new(), Sums::<N>::new());
         let heuristics = self.settings.path.heuristics;
@@ -320,7 +322,7 @@ impl<M: Medium> Setup<'_, M> {
                 }
                 vertex = Some(here);
             }
-            // A path that one hero cannot begin with is made by the others alone.
+            // A path whose start this hero cannot sample is sampled by the other heroes only.
             if !possible {
                 continue;
             }
@@ -345,13 +347,13 @@ impl<M: Medium> Setup<'_, M> {
         for (sums, name) in [(nee, "next event"), (both, "both")] {
             sums.assert(&format!("{what}, {name}"));
         }
-        // Without a family of heroes a component whose own hero cannot make the path goes without.
+        // Without MIS over heroes, a component whose own hero cannot sample the path gets no contribution.
         if heuristics.components == Heuristic::Balance {
             uni.assert(&format!("{what}, unidirectional"));
         }
     }
 
-    /// The same with a third technique, which draws the last vertex by angle.
+    /// Checks the combination with a third technique, equiangular sampling of the last vertex.
     fn three_techniques<C: Components<N>, const N: usize>(&self, path: &Path, what: &str) {
         let mut all = Sums::<N>::new();
         let heuristics = self.settings.path.heuristics;
@@ -387,7 +389,7 @@ impl<M: Medium> Setup<'_, M> {
             let light: LightDensities = reached.light_densities(&world, path.light, point, nee);
             let after = (&last.ray, last.steps.as_slice(), last.end);
 
-            // By angle.
+            // Equiangular sampling.
             if let Some(pivot) = self.scene.lights[path.light].center() {
                 let nulls = &scattering.steps[..scattering.steps.len() - 1];
                 let mut term = Term { p: term.p, f: term.f };
@@ -426,7 +428,8 @@ impl<M: Medium> Setup<'_, M> {
         all.assert(&format!("{what}, equiangular"));
     }
 
-    /// A path of one or two scattering vertices by random numbers; `None` if a point lies in empty space.
+    /// Returns a random path with one or two scattering vertices; `None` if a collision lies in empty space
+    /// or a coefficient is too close to its bound.
     fn random_path<C: Components<N>, const N: usize>(&self, random: &mut Sampler) -> Option<Path> {
         let mut path = Path { stretches: Vec::new(), light: 0, u: random.next_1d() };
         let world = self.world::<C, N>(&path, 0);
@@ -448,7 +451,7 @@ impl<M: Medium> Setup<'_, M> {
             for s in &mut steps {
                 let (point, inside, segment) = segment_at(&world, &ray, s.t)?;
                 let extinction = world.medium.coefficients(inside, &segment).extinction();
-                // Where a bound is tight, rounding is all that is left beyond it.
+                // Where a bound is tight, the difference to it is mostly rounding error.
                 let tight = |rest: Sampled<N>, whole: Sampled<N>| {
                     rest.abs().zip(whole, |r, w| if r < 1e-2 * w { 1.0 } else { 0.0 }).max_component() > 0.0
                 };
@@ -471,7 +474,7 @@ impl<M: Medium> Setup<'_, M> {
             } else {
                 let stretch = &path.stretches[end];
                 let origin = stretch.ray.at(stretch.steps.last()?.t);
-                // Towards the lamp, every other time.
+                // Towards the lamp, with probability 1/2.
                 let lamp = Vec3::new(0.9, 1.1, 0.2);
                 let direction = if random.next_1d() < 0.5 {
                     let u = random.next_2d();
@@ -511,7 +514,7 @@ impl<M: Medium> Setup<'_, M> {
     }
 }
 
-/// Grids of a medium, by name.
+/// Names and TOML of the media.
 fn grids() -> Vec<(&'static str, &'static str)> {
     vec![
         ("uniform", "density = { kind = \"uniform\" }"),
@@ -552,10 +555,10 @@ fn document(grid: &str, mode: &str) -> SceneDoc {
     scene_file::parse(&toml, "path space").unwrap()
 }
 
-/// Every way to draw distances and events × majorants that bound, are loose, or are exceeded × grids × bookkeeping ×
-/// heuristics × light sampling × directions.
+/// Checks all distance and event sampling methods × tight, loose and exceeded majorants × grids × forms of
+/// the path weights × heuristics × light sampling × direction sampling.
 #[test]
-fn the_makers_of_a_path_share_it() {
+fn contributions_of_all_heroes_and_techniques_sum_to_the_integrand() {
     let heuristics = [Heuristic::Balance, Heuristic::Power, Heuristic::Maximum, Heuristic::HeroOnly];
     let (mut setups, mut paths) = (0usize, 0);
     for (name, grid) in grids() {
@@ -569,7 +572,8 @@ fn the_makers_of_a_path_share_it() {
                         doc.estimator.distances = distances;
                         doc.medium.majorant.factor = factor;
                         doc.estimator.absorption = absorption;
-                        // The rest in turn: all values of each meet all of the above.
+                        // The remaining settings cycle, so that each of their values occurs with all of the
+                        // above.
                         doc.medium.majorant.shared = setups % 5 == 1;
                         doc.estimator.heuristics.components = heuristics[setups % 4];
                         doc.estimator.heuristics.techniques = heuristics[setups / 4 % 3];

@@ -1,5 +1,7 @@
-//! Tests of the path weights: the rescaled form against plain products in double precision and against
-//! Miller's pairwise form, and weights that sum to one over all techniques and heroes.
+//! Tests of the path weights.
+//!
+//! The rescaled form is compared with plain products in double precision and with Miller's pairwise form, and
+//! the weights sum to one over all techniques and heroes.
 
 #[path = "path_weights/definition.rs"]
 mod definition;
@@ -37,7 +39,7 @@ fn mean<const N: usize>(f: impl FnMut(usize) -> f64) -> f64 {
     (0..N).map(f).sum::<f64>() / N as f64
 }
 
-/// Checks the value of every technique by its definition and by the pairwise form.
+/// Checks the value of every technique against its definition and the pairwise form.
 fn equals_plain_products<W: Weights<N>, const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let p = events.plain();
     let (walk, link) = (events.walk::<W>(), events.connection::<W>());
@@ -76,7 +78,7 @@ fn equals_plain_products<W: Weights<N>, const N: usize>(events: &Events<N>) -> R
     Ok(())
 }
 
-fn the_hero_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+fn hero_only_equals_plain_product<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let p = events.plain();
     if p.uni[0] > 0.0 {
         let walk = events.walk::<PathWeights<N>>();
@@ -85,15 +87,15 @@ fn the_hero_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseErro
     Ok(())
 }
 
-/// A path could have been made with any component as the hero, by either technique. The weight of each
-/// is its density over the sum of all densities.
+/// Checks that the weights of a path sum to one over every component as the hero and both techniques. Each
+/// weight is its density over the sum of all densities.
 fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let plain = events.plain();
     let (mut weights, mut means) = (0.0, 0.0);
     for hero in 0..N {
         let turned = events.rotated(hero);
         let sum = |values: Sampled<N>| values.0.iter().map(|x| f64::from(*x)).sum::<f64>();
-        // Rescaled densities are in units of the density that made the path.
+        // Rescaled densities are relative to the density that sampled the path.
         if plain.uni[hero] > 0.0 {
             let walk = turned.walk::<PathWeights<N>>();
             assert_near("p_uni of the hero", numbers(&walk)[1].hero(), 1.0)?;
@@ -106,13 +108,14 @@ fn weights_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCase
             weights += 1.0 / sum(numbers(&link)[1] + numbers(&link)[2]);
         }
     }
-    prop_assert!((weights - 1.0).abs() < ROUNDING, "both techniques: {weights}");
+    prop_assert!((weights - 1.0).abs() < ROUNDING, "sum over both techniques: {weights}");
     let could_walk = plain.uni.iter().any(|p| *p > 0.0);
-    prop_assert!(!could_walk || (means - 1.0).abs() < ROUNDING, "the walk alone: {means}");
+    prop_assert!(!could_walk || (means - 1.0).abs() < ROUNDING, "sum over the walk: {means}");
     Ok(())
 }
 
-/// As [`weights_sum_to_one`], of the values that estimators add, for every pair of heuristics.
+/// Checks the same as [`weights_sum_to_one`] for the contributions of the estimators, for every pair of
+/// heuristics.
 fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     use Heuristic::{Balance, HeroOnly, Maximum, Power};
     let plain = events.plain();
@@ -128,7 +131,7 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
         let mut possible = [false; N];
         for hero in 0..N {
             let turned = events.rotated(hero);
-            // MIS-weighted value of the path, which is made one time in N, over its contribution.
+            // MIS-weighted contribution of the path, whose hero has probability 1/N, over f/P.
             let share = |value: Sampled<N>, path: &PathWeights<N>| {
                 f64::from(value.hero()) / (f64::from(path.contribution().hero()) * N as f64)
             };
@@ -146,7 +149,7 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
         }
         let near_one = |sum: f64| (sum - 1.0).abs() < 2.0 * ROUNDING;
         if components == HeroOnly {
-            // Each component has only its own paths.
+            // Each component gets contributions only from paths with itself as the hero.
             for (sum, possible) in by_hero.iter().zip(possible) {
                 prop_assert!(!possible || near_one(*sum), "{heuristics:?}: {by_hero:?}");
             }
@@ -154,14 +157,14 @@ fn shares_sum_to_one<const N: usize>(events: &Events<N>) -> Result<(), TestCaseE
             let sum: f64 = by_hero.iter().sum();
             prop_assert!(near_one(sum), "{heuristics:?}: {sum}");
             let could_walk = plain.uni.iter().any(|p| *p > 0.0);
-            prop_assert!(!could_walk || near_one(alone), "{heuristics:?}, the walk alone: {alone}");
+            prop_assert!(!could_walk || near_one(alone), "{heuristics:?}, sum over the walk: {alone}");
         }
     }
     Ok(())
 }
 
-/// Roulette scales the contribution and leaves uni and nee bitwise unchanged.
-fn roulette_leaves_weights_alone<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
+/// Checks that roulette scales the contribution and leaves p_uni and p_nee unchanged bit for bit.
+fn roulette_leaves_densities_unchanged<const N: usize>(events: &Events<N>) -> Result<(), TestCaseError> {
     let plain = events.plain();
     let without = events.without_roulette();
     let gain = plain.f[0] / without.plain().f[0];
@@ -194,7 +197,7 @@ proptest! {
         equals_plain_products::<PathWeights<1>, 1>(&one)?;
         equals_plain_products::<PathWeights<3>, 3>(&three)?;
         equals_plain_products::<PathWeights<4>, 4>(&four)?;
-        the_hero_alone(&four)?;
+        hero_only_equals_plain_product(&four)?;
     }
 
     #[test]
@@ -215,7 +218,7 @@ proptest! {
     }
 
     #[test]
-    fn every_heuristic_shares_a_path_out_completely(
+    fn weights_of_every_heuristic_sum_to_one(
         one in events::<1>(), three in events::<3>(), four in events::<4>(),
     ) {
         shares_sum_to_one(&one)?;
@@ -225,13 +228,13 @@ proptest! {
 
     #[test]
     fn roulette_is_left_out_of_every_weight(one in events::<1>(), four in events::<4>()) {
-        roulette_leaves_weights_alone(&one)?;
-        roulette_leaves_weights_alone(&four)?;
+        roulette_leaves_densities_unchanged(&one)?;
+        roulette_leaves_densities_unchanged(&four)?;
     }
 }
 
-/// A hundred thousand events of albedo 1 under majorants up to a hundred times apart, drawn as a walk
-/// draws them: nothing overflows, and the values of the components still add up to their number.
+/// Follows a hundred thousand events with albedo 1 and majorants that differ by up to a factor of a hundred,
+/// sampled as by a walk: no value overflows, and the values of the components sum to their number.
 #[test]
 fn a_hundred_thousand_events_stay_finite() {
     const EXTINCTION: [f32; 4] = [0.5, 50.0, 3.0, 0.6];
@@ -264,15 +267,15 @@ fn a_hundred_thousand_events_stay_finite() {
             ];
             assert!(values.iter().flat_map(|v| v.0).all(f32::is_finite), "hero {hero}: {values:?}");
             let sum: f32 = values[0].0.iter().sum();
-            assert!((sum - 4.0).abs() < 0.01, "hero {hero}: the components add up to {sum}");
+            assert!((sum - 4.0).abs() < 0.01, "hero {hero}: the components sum to {sum}");
         }
     }
 }
 
-/// The report's section 5: forty collisions in a dense medium leave the range of single precision, but not of
-/// double precision.
+/// Forty collisions in a dense medium leave the range of single precision, but not of double precision
+/// (section 5 of the report).
 #[test]
-fn products_apart_overflow_where_quotients_do_not() {
+fn separate_products_overflow_where_quotients_do_not() {
     let extinction = Sampled([400.0f32, 300.0, 200.0, 100.0]);
     let segment =
         MajorantSegment { t0: 0.0, t1: 1.0, majorant: extinction * 1.2, clamp_null: false, watched: false };

@@ -1,22 +1,25 @@
-//! Rows that cover every pair of values of all axes, and the triples that interact most.
+//! Covering array of the settings: every pair of values of all axes, and every triple of the most strongly
+//! interacting axes.
 //!
-//! A target is a set of values of two or three axes. A row covers it if it has these values, its estimator uses the axes, none
-//! of them is idle in the row (a heuristic among components where one component is carried, say), and its image is
-//! declared unbiased with finite variance. Rows are found greedily, by fixed random numbers.
+//! A target is a set of values of two or three axes. A row covers a target if it has these values, its
+//! estimator uses the axes, none of the values is idle in the row (such as a heuristic among components where
+//! one component is carried), and its image is declared unbiased with finite variance. Rows are found by a
+//! greedy search with fixed random numbers.
 //!
-//! A target is left out if every row is declared biased, of infinite variance or not valid that has it and defaults
-//! elsewhere: by what the registry and the table of keys say, and by nothing here. A target whose values are idle together
-//! in every scene (how a uniform medium is interpolated) is covered by a row that has them.
+//! A target is left out if every row with its values and defaults elsewhere is declared biased, of infinite
+//! variance or invalid. These declarations come from the registry and the table of keys only. A target whose
+//! values are idle together in every scene (such as the interpolation of a uniform medium) is covered by any
+//! row that has them.
 
 use super::axes::{AXES, AtWork, Row, axis};
 use majorant_core::estimator::REGISTRY;
 use majorant_core::math::Sampler;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Axes by number with their values by number.
+/// Indices of axes, each with the index of its value.
 pub type Target = Vec<(usize, usize)>;
 
-/// Axes of which every triple is covered.
+/// Axes for which every triple of values is covered.
 const INTERACTING: [&str; 5] = [
     "estimator.id",
     "estimator.distances",
@@ -27,14 +30,14 @@ const INTERACTING: [&str; 5] = [
 
 pub struct Array {
     pub rows: Vec<Row>,
-    /// Targets that no row can have, with the rule that forbids them.
+    /// Targets that no valid, unbiased row has, with the rule that forbids them.
     pub forbidden: BTreeMap<Target, String>,
-    /// Targets whose values change nothing together.
+    /// Targets whose values have no joint effect in any scene.
     pub idle: BTreeSet<Target>,
     pub targets: usize,
 }
 
-/// Every target that some estimator has axes for.
+/// Targets whose axes are all used by at least one estimator.
 fn targets() -> BTreeSet<Target> {
     let mut targets = BTreeSet::new();
     let usable = |target: &Target| {
@@ -81,7 +84,7 @@ impl Array {
             let mut found: Option<(Row, bool)> = None;
             for row in Row::plainest(&target) {
                 let works = row.at_work().covers(&target, false);
-                // A further scene in which the target changes nothing says no more.
+                // Another scene in which the target is idle adds no information.
                 if found.is_some() && !works {
                     continue;
                 }
@@ -103,7 +106,7 @@ impl Array {
                 }
             }
         }
-        // Triples first: they need the most rows.
+        // Triples first, because they need the most rows.
         open.sort_by_key(|open| open.target.len());
         let targets = open.clone();
         let mut random = Sampler::new(2026, 0, 0);
@@ -115,7 +118,7 @@ impl Array {
                     best.improve(row, &next, &open);
                 }
             }
-            // Then value by value, as long as it gets better.
+            // Local search over single values while the gain increases.
             loop {
                 let gain = best.gain;
                 for row in best.row.neighbours() {
@@ -129,12 +132,12 @@ impl Array {
             open.retain(|open| !open.is_covered_by(&at_work));
             array.rows.push(best.row);
         }
-        array.leave_out_what_others_cover(&targets);
+        array.remove_redundant_rows(&targets);
         array
     }
 
-    /// Later rows may cover all that an earlier one was made for. The costly ones go first.
-    fn leave_out_what_others_cover(&mut self, targets: &[Open]) {
+    /// Removes rows whose targets are all covered by other rows, the most expensive rows first.
+    fn remove_redundant_rows(&mut self, targets: &[Open]) {
         let at_work: Vec<_> = self.rows.iter().map(Row::at_work).collect();
         let covered_by = |row: &AtWork| {
             let covered = targets.iter().enumerate().filter(|(_, target)| target.is_covered_by(row));
@@ -152,19 +155,19 @@ impl Array {
                 kept[row] = false;
             }
         }
-        assert!(times.iter().all(|n| *n > 0), "a target is covered by no row");
+        assert!(times.iter().all(|n| *n > 0), "a target is not covered by any row");
         let mut kept = kept.into_iter();
         self.rows.retain(|_| kept.next().unwrap());
     }
 }
 
-/// A target that is to be covered.
+/// Target to be covered.
 #[derive(Clone)]
 struct Open {
     target: Target,
-    /// Whether its values change nothing together.
+    /// Whether its values have no joint effect in any scene.
     idle: bool,
-    /// A row that has it.
+    /// Row with the values of the target and defaults elsewhere.
     row: Row,
 }
 
@@ -174,21 +177,21 @@ impl Open {
     }
 }
 
-/// A row that may be chosen.
+/// Candidate for the next row, with its gain.
 struct Candidate {
     gain: f64,
     row: Row,
 }
 
 impl Candidate {
-    /// Takes another row if it covers more for what it costs, `target` among it, and no rule forbids it.
+    /// Replaces the candidate by `row` if that covers `target`, has a higher gain, and is not forbidden.
     fn improve(&mut self, row: Row, target: &Open, open: &[Open]) {
         let at_work = row.at_work();
         if !target.is_covered_by(&at_work) {
             return;
         }
         let covered = open.iter().filter(|open| open.is_covered_by(&at_work)).count();
-        // As many targets as can be had for the paths that the row will take.
+        // Number of covered targets relative to the paths that the row takes.
         let gain = covered as f64 / row.cost().powf(0.7);
         if gain > self.gain && row.rule_against().is_none() {
             *self = Self { gain, row };
@@ -196,7 +199,7 @@ impl Candidate {
     }
 }
 
-/// A target in words.
+/// Description of a target for messages.
 pub fn words(target: &Target) -> String {
     let parts: Vec<_> = target
         .iter()

@@ -1,7 +1,8 @@
-//! The axes of the covering array, and rows of their values.
+//! Axes of the covering array, and rows of their values.
 //!
-//! The axes are the keys of the table that affect the estimate, with their values; which estimators use one is said by the
-//! registry. A new key is an axis, or the test of the axes fails; a new value or estimator is covered by existing.
+//! The axes are the keys of the table that affect the estimate, with their values; the registry lists the
+//! axes that each estimator uses. A new key must become an axis, or the test of the axes fails; a new value
+//! or estimator is covered automatically.
 
 use super::array::Target;
 use super::scene::{Density, Known, Place};
@@ -12,39 +13,39 @@ use majorant_core::scene::keys::{self, Affects, Key, Registry, Type};
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex};
 
-/// The axis of the kind of grid, which is made up here: four grids that the density may come from.
+/// Axis of the density, which is not a key of the table: a uniform density and three grids.
 pub const DENSITY: &str = "density";
 
-/// Keys that affect the estimate and are no axis, with the reason.
+/// Keys that affect the estimate but are not axes, with the reason.
 pub const NO_AXES: [(&str, &str); 2] = [
     ("render.seed", "it selects the random numbers: every row has its own"),
     (
         "estimator.fault",
-        "every value but the default is declared biased, and measured to be by a test of its own",
+        "every value but the default is declared biased, and a separate test measures the bias",
     ),
 ];
 
-/// Keys that affect the expected image as well, and how it is estimated.
+/// Keys that affect both the expected image and its estimate.
 const IMAGES: [&str; 2] = ["estimator.mode", "medium.precision"];
 
-/// Values of keys that hold numbers, the default first where there is one.
+/// Values of numeric keys, the default first if there is one.
 const NUMBERS: [(&str, &[&str]); 3] = [
     ("medium.majorant.factor", &["1.0", "0.5", "1.7"]),
     ("medium.majorant.resolution", &["1", "4"]),
     ("estimator.roulette_depth", &["16", "1"]),
 ];
 
-/// A choice with its values.
+/// Axis with its values.
 pub struct Values {
     pub key: &'static str,
-    /// The axis of the registry, for choices that not every estimator uses.
+    /// Axis of the registry, for settings that not every estimator uses.
     pub axis: Option<Axis>,
-    /// As a scene file writes them; the first is the default, if there is one.
+    /// Values as written in a scene file; the first is the default, if there is one.
     pub values: Vec<String>,
 }
 
 impl Values {
-    /// The axis of a key of the table; without values if they are not known.
+    /// Returns the axis of a key of the table; without values if these are unknown.
     fn of(key: &Key) -> Self {
         let numbers = NUMBERS.iter().filter(|(path, _)| *path == key.path).flat_map(|(_, values)| *values);
         let mut values: Vec<String> = match key.value {
@@ -64,17 +65,17 @@ impl Values {
         self.axis.is_none_or(|axis| entry.uses(axis))
     }
 
-    /// Whether an estimator can have a value: the axis of estimators has one for each.
+    /// Whether the value can occur with an estimator; on the estimator axis each has exactly one value.
     pub fn admits(&self, value: usize, entry: &Entry) -> bool {
         self.key != "estimator.id" || self.words(value) == entry.id
     }
 
-    /// A value without quotation marks.
+    /// Returns a value without quotation marks.
     pub fn words(&self, value: usize) -> &str {
         self.values[value].trim_matches('"')
     }
 
-    /// The number of a value that is given with or without quotation marks.
+    /// Returns the index of a value given with or without quotation marks.
     fn find(&self, text: &str) -> usize {
         let found = (0..self.values.len()).find(|i| self.words(*i) == text.trim_matches('"'));
         found.unwrap_or_else(|| panic!("{} = {text}", self.key))
@@ -85,7 +86,7 @@ fn written(word: &str) -> String {
     format!("{word:?}")
 }
 
-/// Keys of the table that affect the estimate, without those of views beside the scene's own.
+/// Returns the keys of the table that affect the estimate, except those of comparison views.
 pub fn keys_of_the_estimate() -> impl Iterator<Item = &'static Key> {
     keys::all()
         .iter()
@@ -105,23 +106,23 @@ pub fn axis(key: &str) -> usize {
     AXES.iter().position(|a| a.key == key).unwrap_or_else(|| panic!("no axis {key}"))
 }
 
-/// One value of every axis, and a scene. Axes that the estimator does not use are at their first value.
+/// One value of every axis, and a scene. Axes that the estimator does not use have their first value.
 #[derive(Clone, Debug)]
 pub struct Row {
     values: Vec<usize>,
     pub known: Known,
     pub coloured: bool,
-    /// What the density is multiplied by, in per cent, if not as its values ask.
+    /// Density scale in per cent; `None` selects it from the values.
     pub percent: Option<u32>,
-    /// What lengths are multiplied by, in per cent.
+    /// Length scale in per cent.
     pub size: u32,
 }
 
-/// What is at work in a row: the value of each axis that its estimator uses, and whether it can change anything.
+/// Value of each axis that the estimator of a row uses, and whether the axis has an effect in that row.
 pub struct AtWork(Vec<Option<(usize, bool)>>);
 
 impl AtWork {
-    /// Whether the row has the values of a target; `idle`: also where they change nothing.
+    /// Whether the row has the values of a target; with `idle`, values without effect count as well.
     pub fn covers(&self, target: &Target, idle: bool) -> bool {
         target
             .iter()
@@ -130,7 +131,7 @@ impl AtWork {
 }
 
 impl Row {
-    /// The first value of every axis, but for some.
+    /// Returns the row with the first value of every axis except those in `but`.
     pub fn plain(estimator: &str, but: &[(&str, &str)]) -> Self {
         let mut row = Self {
             values: vec![0; AXES.len()],
@@ -146,7 +147,8 @@ impl Row {
         row
     }
 
-    /// The rows that differ from defaults by a target and by their scene alone, over all estimators that use its axes.
+    /// Returns the rows with the values of a target and defaults elsewhere, in every scene, for all
+    /// estimators that use its axes.
     pub fn plainest(target: &Target) -> impl Iterator<Item = Self> {
         let with = target.clone();
         let usable = |entry: &&Entry| {
@@ -177,7 +179,8 @@ impl Row {
         }
     }
 
-    /// A row with the values of a target and random ones elsewhere; `None` if its estimator cannot have the target.
+    /// Returns a row with the values of a target and random values elsewhere; `None` if its estimator does
+    /// not use the axes of the target.
     pub fn random(target: &Target, random: &mut Sampler) -> Option<Self> {
         let mut draw = |n: usize| ((random.next_1d() * n as f32) as usize).min(n - 1);
         let mut row = Self::plain(REGISTRY[0].id, &[]);
@@ -195,7 +198,8 @@ impl Row {
         Some(row)
     }
 
-    /// The rows of the same estimator that differ from this one by the value of one axis, or by their colours.
+    /// Returns the rows of the same estimator that differ from this one in the value of one axis, or in their
+    /// colours.
     pub fn neighbours(&self) -> Vec<Self> {
         let entry = self.entry();
         let mut rows = Vec::new();
@@ -233,7 +237,7 @@ impl Row {
     pub fn place(&self) -> Place {
         let density = Density::ALL.into_iter().find(|d| d.name() == self.value(DENSITY)).unwrap();
         let factor: f32 = self.value("medium.majorant.factor").parse().unwrap();
-        // The weights that make up for an exceeded majorant vary by e^(3τ) over an optical depth of τ.
+        // The weights that compensate for an exceeded majorant vary by e^(3τ) over an optical depth of τ.
         let thin = if factor < 1.0 { 40 } else { 100 };
         let thin = if self.known == Known::Transmittance { thin / 2 } else { thin };
         Place {
@@ -246,7 +250,7 @@ impl Row {
         }
     }
 
-    /// The scene.
+    /// Scene document of the row.
     pub fn document(&self) -> SceneDoc {
         static PLACES: Mutex<BTreeMap<Place, toml::Value>> = Mutex::new(BTreeMap::new());
         static PARSED: Mutex<BTreeMap<&str, toml::Value>> = Mutex::new(BTreeMap::new());
@@ -274,7 +278,8 @@ impl Row {
         tree.try_into().unwrap()
     }
 
-    /// What is declared of the row: why its image is not held against an answer.
+    /// Returns the reason why the image of the row is not compared with a reference: it is invalid, biased or
+    /// of infinite variance.
     pub fn rule_against(&self) -> Option<String> {
         let doc = self.document();
         let entry = self.entry();
@@ -283,28 +288,28 @@ impl Row {
         }
         let bias = entry.bias(&doc);
         let ruled = || keys::all().iter().any(|key| key.biases.is_some_and(|bias| (bias.holds)(&doc)));
-        assert!(bias.is_none() || ruled(), "{bias:?} by no rule of the table: {}", self.words());
+        assert!(bias.is_none() || ruled(), "{bias:?} without a rule in the table: {}", self.words());
         bias.map(|why| format!("biased: {why}"))
             .or_else(|| (entry.infinite_variance)(&doc).map(|why| format!("infinite variance: {why}")))
     }
 
-    /// Whether the value of an axis can change anything in this row.
+    /// Whether an axis has an effect in this row.
     fn is_at_work(&self, key: &str) -> bool {
         let place = self.place();
         let grid = !matches!(place.density, Density::Uniform);
         match key {
-            // One component is carried for all.
+            // Achromatic media carry one component for all.
             "estimator.heuristics.components" | "medium.majorant.shared" => !place.achromatic(),
             "estimator.wavelengths" => place.spectral,
             "medium.interpolation" | "medium.precision" | "medium.majorant.resolution" => grid,
-            // Nothing is absorbed in a furnace, and nothing scatters where all is.
+            // A furnace has no absorption; a transmittance scene has no scattering.
             "estimator.absorption" => place.known != Known::Furnace,
             "estimator.directions" | "estimator.roulette_depth" => place.known != Known::Transmittance,
             _ => true,
         }
     }
 
-    /// What is at work in this row.
+    /// Returns the values and effects of the axes in this row.
     pub fn at_work(&self) -> AtWork {
         let entry = self.entry();
         let value = |(a, axis): (usize, &Values)| {
@@ -313,7 +318,7 @@ impl Row {
         AtWork(AXES.iter().enumerate().map(value).collect())
     }
 
-    /// Roughly how much longer the row takes than a plain one.
+    /// Approximate running time relative to a row of defaults.
     pub fn cost(&self) -> f64 {
         let costly = [
             ("medium.majorant.factor", "0.5", 3.0),
@@ -336,7 +341,7 @@ impl Row {
             .map(|(_, _, factor)| factor)
             .product();
         let furnace = self.known == Known::Furnace && self.entry().connects();
-        // Far from the hero's wavelength a path that the hero has made may be worth much.
+        // A path sampled by the hero may have a large weight at wavelengths far from the hero's.
         let steep = self.uses("estimator.heuristics.components")
             && self.value("estimator.heuristics.components") == "maximum"
             && self.place().spectral;

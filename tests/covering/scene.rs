@@ -1,4 +1,4 @@
-//! The scenes of the covering array: a cube of one of four grids, and what its image should be.
+//! Scenes of the covering array: a box with one of four densities, and its reference image.
 
 use super::truth::{self, Field};
 use majorant_core::check::{Answer, Layout};
@@ -9,26 +9,26 @@ use majorant_tests::fixture::npy;
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
-/// What is known of a scene.
+/// Kind of scene, each with a known reference image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Known {
-    /// Absorption alone: what comes through.
+    /// Absorption only: the transmittance.
     Transmittance,
     /// Single scattering, by quadrature.
     Single,
-    /// Radiance 1 from everywhere, albedo 1: what the camera sees of it is what does not come through.
+    /// Radiance 1 from all directions, albedo 1, background hidden: one minus the transmittance.
     Furnace,
 }
 
 impl Known {
-    /// What is held against an estimator: where nothing scatters there is nothing to connect.
+    /// Kinds of scene for an estimator; one with connections skips the scene without scattering.
     pub fn of(entry: &Entry) -> &'static [Self] {
         const ALL: [Known; 3] = [Known::Single, Known::Furnace, Known::Transmittance];
         if entry.connects() { &ALL[..2] } else { &ALL }
     }
 }
 
-/// Where the density comes from.
+/// Source of the density.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Density {
     Uniform,
@@ -49,7 +49,7 @@ impl Density {
         }
     }
 
-    /// The kind of density in a scene file, and the file.
+    /// Kind of density in a scene file, and the grid file if there is one.
     pub fn kind(self) -> (&'static str, Option<&'static str>) {
         match self {
             Self::Uniform => ("uniform", None),
@@ -64,12 +64,12 @@ impl Density {
 pub struct Place {
     pub known: Known,
     pub density: Density,
-    /// Whether extinction and albedo depend on the wavelength, or channel.
+    /// Whether extinction and albedo depend on the wavelength or channel.
     pub chromatic: bool,
     pub spectral: bool,
-    /// What the density is multiplied by, in per cent.
+    /// Density scale in per cent.
     pub percent: u32,
-    /// What lengths are multiplied by, in per cent; the optical depths stay.
+    /// Length scale in per cent; optical depths are unchanged.
     pub size: u32,
 }
 
@@ -161,7 +161,7 @@ impl Place {
         Answer::uniform(colour, Layout::WHOLE).within(truth::QUADRATURE)
     }
 
-    /// What comes through a medium that is the same everywhere and at every wavelength.
+    /// Transmittance of a homogeneous achromatic medium along the axis.
     pub fn transmittance(&self) -> f64 {
         (-self.scale() * EXTINCTION_GREY * truth::EXTENT[2]).exp()
     }

@@ -1,4 +1,5 @@
-//! Answers of the covering array's scenes: transmittance and single scattering by quadrature, and a furnace.
+//! Reference values for the scenes of the covering array: transmittance and single scattering by quadrature,
+//! and a furnace.
 
 use glam::DVec3;
 use majorant_core::spectrum::{Components, Sampled, Wavelengths};
@@ -6,26 +7,27 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Values per axis of every grid.
+/// Number of values per axis of every grid.
 pub const SIZE: usize = 5;
-/// Grids hold multiples of this, the largest of every channel 255 of them: each precision holds them exactly.
+/// Quantization step of the grids. The largest value of every channel is 255 steps, so that every precision
+/// stores the values exactly.
 const STEP: f32 = 1.0 / 128.0;
 
-/// The medium's size: long where the camera looks along it, so that most paths scatter, and thin to the sides, so that most
-/// leave it again.
+/// Size of the medium: long along the view direction, so that most paths scatter, and thin to the sides, so
+/// that most paths leave it again.
 pub const EXTENT: [f64; 3] = [0.5, 0.5, 1.5];
 
-/// Where the lamp stands.
+/// Centre of the spherical lamp.
 pub const LAMP: [f64; 3] = [0.9, 1.1, 0.2];
 pub const LAMP_RADIUS: f64 = 0.4;
 pub const LAMP_RADIANCE: f64 = 3.0;
 pub const SKY_RADIANCE: f64 = 0.6;
 pub const ASYMMETRY: f64 = 0.2;
 
-/// Quadrature is good to this.
+/// Relative error bound of the quadrature.
 pub const QUADRATURE: f64 = 4e-4;
 
-/// Without any pattern, from 1/4 to 255/128: a control is not zero in any cell.
+/// Pseudo-random grid values from 1/4 to 255/128, so that the control is non-zero in every cell.
 pub fn rough_values(channels: usize) -> Vec<f32> {
     let count = SIZE.pow(3) * channels;
     let mut values: Vec<f32> = (0..count)
@@ -41,14 +43,15 @@ pub fn rough_values(channels: usize) -> Vec<f32> {
     values
 }
 
-/// What a ray along the axis meets: contributions with their densities and optical depths, per channel of the grid.
+/// Quadrature sample of single scattering: its weight, and the density and optical depth per channel of the
+/// grid.
 struct Sample {
     weight: f64,
     density: [f64; 3],
     depth: [f64; 3],
 }
 
-/// A medium's density over its box.
+/// Quadrature of a density field over its box.
 pub struct Field {
     single: Vec<Sample>,
     /// Optical depth through the box along the axis.
@@ -64,7 +67,7 @@ fn integrate(cells: u32, mut f: impl FnMut(f64)) {
     }
 }
 
-/// Directions within a cap, with their solid angles.
+/// Directions within a spherical cap, with their solid angles.
 fn cap(axis: DVec3, height: f64, cells: u32) -> Vec<(DVec3, f64)> {
     let (u, v) = axis.any_orthonormal_pair();
     let mut directions = Vec::new();
@@ -96,7 +99,7 @@ fn phase(cosine: f64) -> f64 {
 }
 
 impl Field {
-    /// By rasters of a fineness: 1 for the answers.
+    /// Computes the quadrature samples; `raster` scales the resolution and is 1 for the reference values.
     pub fn new(raster: f64, density: impl Fn(DVec3) -> [f64; 3] + Sync) -> Self {
         let column = |from: DVec3, direction: DVec3, length: f64, cells: u32| {
             let mut sum = [0.0; 3];
@@ -122,7 +125,7 @@ impl Field {
             let to_lamp = DVec3::from(LAMP) - point;
             let height = 1.0 - (1.0 - (LAMP_RADIUS / to_lamp.length()).powi(2)).sqrt();
             let lamp = cap(to_lamp.normalize(), height, fine(5.0));
-            // The lamp hides the sky behind it.
+            // The lamp occludes the sky behind it.
             let lights = [(&sky, SKY_RADIANCE), (&lamp, LAMP_RADIANCE - SKY_RADIANCE)];
             let mut samples = Vec::new();
             for (directions, radiance) in lights {
@@ -141,13 +144,13 @@ impl Field {
         Self { single, through: column(face, -DVec3::Z, length, 200) }
     }
 
-    /// Single scattering of albedo 1, where the extinction is the densities weighted by `sigma`.
+    /// Single scattering for albedo 1 and an extinction equal to the densities weighted by `sigma`.
     pub fn single(&self, sigma: [f64; 3]) -> f64 {
         let dot = |a: &[f64; 3]| a[0] * sigma[0] + a[1] * sigma[1] + a[2] * sigma[2];
         self.single.iter().map(|s| s.weight * dot(&s.density) * (-dot(&s.depth)).exp()).sum()
     }
 
-    /// What comes through the box.
+    /// Transmittance of the box along the axis.
     pub fn transmittance(&self, sigma: [f64; 3]) -> f64 {
         let t = self.through;
         (-(t[0] * sigma[0] + t[1] * sigma[1] + t[2] * sigma[2])).exp()
@@ -156,9 +159,9 @@ impl Field {
 
 /// Density 1 everywhere.
 pub static CONSTANT: LazyLock<Field> = LazyLock::new(|| constant(1.0));
-/// The rough grid.
+/// Single-channel grid of [`rough_values`].
 pub static ROUGH: LazyLock<Field> = LazyLock::new(|| rough(1.0));
-/// The grid of three channels.
+/// Three-channel grid of [`rough_values`].
 pub static COLOURS: LazyLock<Field> = LazyLock::new(|| colours(1.0));
 
 pub fn constant(raster: f64) -> Field {
@@ -175,7 +178,8 @@ pub fn colours(raster: f64) -> Field {
     Field::new(raster, |p| trilinear(&values, 3, p))
 }
 
-/// Values at cell centres over the box about the origin, held beyond the outermost.
+/// Trilinear interpolation of values at cell centres over the box about the origin, clamped at the outermost
+/// centres.
 fn trilinear(values: &[f32], channels: usize, p: DVec3) -> [f64; 3] {
     let n = SIZE as f64;
     let index = (p / DVec3::from(EXTENT) + 0.5) * n - 0.5;
@@ -198,7 +202,7 @@ fn trilinear(values: &[f32], channels: usize, p: DVec3) -> [f64; 3] {
     sum
 }
 
-/// What the film shows of radiance by wavelength, in linear sRGB.
+/// Film response to a spectral radiance, in linear sRGB.
 pub fn film(radiance: impl Fn(f32) -> f64 + Sync) -> [f64; 3] {
     let step = 2.5f32;
     let values: Vec<[f64; 3]> = (0..=188u8)
@@ -214,13 +218,13 @@ pub fn film(radiance: impl Fn(f32) -> f64 + Sync) -> [f64; 3] {
     std::array::from_fn(|c| values.iter().map(|value| value[c]).sum())
 }
 
-/// What 1 of red, green and blue is at a wavelength.
+/// Upsampled spectra of unit red, green and blue at a wavelength in nanometres.
 pub fn basis(lambda: f32) -> [f64; 3] {
     let at = Wavelengths::<1> { lambda_nm: [lambda], density_per_nm: [1.0] };
     glam::Vec3::AXES.map(|axis| f64::from(at.upsample(axis).hero()))
 }
 
-/// A spectrum given by points, linear between them and held beyond.
+/// Value of a piecewise linear spectrum at a wavelength, constant beyond the outermost points.
 pub fn by_points(points: &[(f64, f64)], lambda: f64) -> f64 {
     let after = points.partition_point(|p| p.0 <= lambda);
     match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
@@ -231,9 +235,9 @@ pub fn by_points(points: &[(f64, f64)], lambda: f64) -> f64 {
     }
 }
 
-/// Planck's law at 3000 K, 1 at 560 nm.
+/// Planck's law at 3000 K, normalized to 1 at 560 nm.
 pub fn blackbody(lambda_nm: f64) -> f64 {
-    // hc/k over the temperature, in nanometres.
+    // hc/(kT) in nanometres.
     let c: f64 = 1.438_776_877e7 / 3000.0;
     (560.0_f64 / lambda_nm).powi(5) * (c / 560.0).exp_m1() / (c / lambda_nm).exp_m1()
 }

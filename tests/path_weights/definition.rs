@@ -1,5 +1,7 @@
-//! Paths as sequences of events, for tests of the path weights: f, p_uni and p_nee by their definitions, in
-//! double precision, straight from the table of events, and in Miller's pairwise form.
+//! Paths as sequences of events, for tests of the path weights.
+//!
+//! Computes f, p_uni and p_nee in double precision by their definitions in the table of events, and in
+//! Miller's pairwise form.
 
 use glam::Vec3;
 use majorant_core::medium::{Coefficients, MajorantSegment};
@@ -12,7 +14,8 @@ use proptest::array::uniform;
 use proptest::prelude::*;
 use std::array::from_fn;
 
-/// Medium at a collision, per component; the extinction may exceed the majorant, or vanish.
+/// Coefficients of the medium at a collision, per component; the extinction may exceed the majorant or be
+/// zero.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<const N: usize> {
     extinction: [f32; N],
@@ -27,11 +30,11 @@ pub enum Step<const N: usize> {
         distance: f32,
     },
     Null(Place<N>),
-    /// Scattering vertex, with the density of the direction in which the path leaves.
+    /// Scattering vertex, with the density of the outgoing direction.
     Scatter(Place<N>, f32),
-    /// Reflection on a surface of this albedo, with the density of the direction in which the path leaves.
+    /// Reflection at a surface with this albedo, with the density of the outgoing direction.
     Reflect([f32; N], f32),
-    /// Russian roulette, survived with this probability.
+    /// Survival of Russian roulette, with its probability.
     Survive(f32),
 }
 
@@ -43,9 +46,9 @@ pub struct Events<const N: usize> {
     pub before: Vec<Step<N>>,
     /// The last real vertex.
     pub vertex: Step<N>,
-    /// Density with which light sampling would have drawn the direction towards the light at `vertex`.
+    /// Density under light sampling of the direction from `vertex` to the light.
     pub light: f32,
-    /// Events between `vertex` and the light: passed stretches and null collisions.
+    /// Events between `vertex` and the light: passed segments and null collisions.
     pub after: Vec<Step<N>>,
 }
 
@@ -82,8 +85,8 @@ impl<const N: usize> Step<N> {
         }
     }
 
-    /// Factors of f, p_uni and p_nee at component `i`. The density of a vertex's direction is left out of
-    /// p_nee.
+    /// Factors of f, p_uni and p_nee for component `i`. The factor of p_nee does not include the density of a
+    /// vertex's outgoing direction.
     fn factors(&self, i: usize, absorption: Absorption) -> [f64; 3] {
         let of = |p: &Place<N>| [p.extinction[i], p.albedo[i], p.majorant[i]].map(f64::from);
         match self {
@@ -109,11 +112,11 @@ impl<const N: usize> Step<N> {
     }
 }
 
-/// Phase function divided by the density with which directions in the medium are drawn.
+/// Phase function over the density of direction sampling in the medium.
 const VALUE: f64 = 0.6;
 
 impl<const N: usize> Step<N> {
-    /// Direction sample with which a path leaves a vertex.
+    /// Sample of the outgoing direction, at a vertex.
     fn outgoing(&self) -> Option<DirectionSample> {
         let (value, density) = match self {
             Self::Scatter(_, density) => (VALUE as f32 * density, *density),
@@ -160,7 +163,7 @@ impl<const N: usize> Events<N> {
             Step::Reflect(albedo, _) => path.reflect(Sampled(*albedo)),
             Step::Survive(q) => path.survive(*q),
         }
-        // Either technique leaves the last vertex.
+        // The walk samples a direction at every vertex.
         if let Some(outgoing) = step.outgoing() {
             path.choose_direction(&outgoing);
         }
@@ -172,7 +175,7 @@ impl<const N: usize> Events<N> {
         path
     }
 
-    /// Weights of the path when the walk makes it.
+    /// Weights of the path sampled by the walk.
     pub fn walk<W: Weights<N>>(&self) -> W {
         let mut path = self.up_to_vertex();
         self.apply(&mut path, &self.vertex);
@@ -180,7 +183,7 @@ impl<const N: usize> Events<N> {
         path
     }
 
-    /// Weights of the path when a connection from the last vertex makes it.
+    /// Weights of the path sampled with a connection from the last vertex.
     pub fn connection<W: Weights<N>>(&self) -> W {
         let mut path = self.up_to_vertex::<W>();
         match &self.vertex {
@@ -200,12 +203,13 @@ impl<const N: usize> Events<N> {
         link
     }
 
-    /// Evaluates the definitions.
+    /// Evaluates the definitions of f, p_uni and p_nee.
     pub fn plain(&self) -> Plain<N> {
         let ones = [[1.0; N]; N];
         let mut plain =
             Plain { f: [1.0; N], uni: [1.0; N], nee: [1.0; N], uni_over_f: ones, nee_over_f: ones };
-        // Up to the last vertex both techniques sample alike; at that vertex p_nee has the light's density.
+        // Both techniques sample the path up to the last vertex alike; there p_nee has the density of light
+        // sampling.
         for step in &self.before {
             plain.multiply(|i| {
                 let [f, uni, _] = step.factors(i, self.absorption);
@@ -238,7 +242,7 @@ impl<const N: usize> Plain<N> {
     }
 }
 
-/// Strategy for one value per component, in some cases with a zero at one of them.
+/// Strategy for one value per component, in some cases with one of them zero.
 fn values<const N: usize>(lo: f32, hi: f32) -> impl Strategy<Value = [f32; N]> {
     (uniform(lo..hi), 0usize..100).prop_map(|(mut values, dark)| {
         if N > 1 && dark < N {

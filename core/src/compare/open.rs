@@ -235,6 +235,6 @@ mod tests {
         let (reference, notes) = opened(&path.display().to_string(), &fixture::doc("theirs"));
         let reference = reference.unwrap();
         assert!(reference.target.is_some() && reference.standard_error().is_none());
-        assert!(notes.len() == 1 && notes[0].contains("on trust"), "{notes:?}");
+        assert!(notes.len() == 1 && notes[0].contains("assumed to show"), "{notes:?}");
     }
 }
