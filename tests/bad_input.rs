@@ -106,7 +106,7 @@ fn phase_tables_are_read_from_files_and_bad_ones_refused() {
         ("0, 1\n90, x\n", "lobe.csv:2"),
         ("0, 1\n90, nan\n", "not finite"),
         ("0, 1\n90, -1\n", "negative"),
-        ("90, 1\n0, 1\n", "rise"),
+        ("90, 1\n0, 1\n", "increase"),
         ("0, 1\n200, 1\n", "outside"),
         ("0, 0\n180, 0\n", "everywhere"),
     ] {
@@ -198,7 +198,7 @@ fn absurd_scenes_are_refused_by_name() {
         ("[medium.phase]\nkind = \"tabulated\"", "medium.phase.points"),
         ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.0, 1.0], [0.5, nan]]", "not finite"),
         ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.0, 1.0], [0.5, -1.0]]", "negative"),
-        ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.5, 1.0], [0.0, 1.0]]", "rise"),
+        ("[medium.phase]\nkind = \"tabulated\"\npoints = [[0.5, 1.0], [0.0, 1.0]]", "increase"),
         (
             "[medium.phase]\nkind = \"tabulated\"\nfile = \"a\"\npoints = [[0.5, 1.0], [0.7, 1.0]]",
             "medium.phase.file",
@@ -232,7 +232,7 @@ fn absurd_scenes_are_refused_by_name() {
     let mut deep = SceneDoc::default();
     deep.medium.scale = 1e6;
     let message = build(&deep, &mut Library::default()).unwrap_err().to_string();
-    assert!(message.contains("medium.scale") && message.contains("mean free paths"), "{message}");
+    assert!(message.contains("medium.scale") && message.contains("optical depth"), "{message}");
     let mut tiny = SceneDoc::default();
     tiny.medium.placement.scale = [1e-11; 3];
     assert!(build(&tiny, &mut Library::default()).is_ok());
