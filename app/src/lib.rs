@@ -10,11 +10,9 @@
 //! drawn. The comparison of documents alone determines what has to be rendered again.
 
 mod background;
+mod background_query;
 pub mod cli;
 pub mod lab;
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test")]
-mod layers;
 pub mod lessons;
 pub mod model;
 pub mod panels;

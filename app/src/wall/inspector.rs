@@ -1,6 +1,6 @@
 //! State of the tabs for paths, rays, contributions and noise that persists between frames.
 
-use crate::background::BackgroundQuery;
+use crate::background_query::BackgroundQuery;
 use majorant_core::estimator::Entry;
 use majorant_core::inspect::{BenchPlan, Evidence, Ledger, RayBench, Recording, Split, Strategies};
 use majorant_core::scene::CameraDoc;
