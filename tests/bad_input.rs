@@ -23,7 +23,7 @@ fn npy(shape: &str, values: &[f32]) -> Vec<u8> {
 
 fn with_density(file: &str) -> SceneDoc {
     let mut doc = SceneDoc::default();
-    doc.medium.density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
+    doc.medium_mut().density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
     doc
 }
 
@@ -61,7 +61,7 @@ fn nan_and_infinite_voxels_are_repaired_and_said() {
     let bytes = npy("(1, 2, 2)", &[1.0, f32::NAN, f32::INFINITY, 0.5]);
     std::fs::write(folder.path().join("holes.npy"), bytes).unwrap();
     let scene = frozen(&with_density("holes.npy"), folder.path());
-    assert_eq!(scene.info.max_density, 1.0);
+    assert_eq!(scene.info.medium(0).unwrap().max_density, 1.0);
     assert!(scene.notices[0].contains("2 voxels"), "{:?}", scene.notices);
 }
 
@@ -72,7 +72,7 @@ fn an_rgb_grid_is_not_a_density_and_the_other_way_round() {
     let folder = folder();
     std::fs::write(folder.path().join("grey.npy"), npy("(1, 1, 1)", &[1.0])).unwrap();
     let mut doc = SceneDoc::default();
-    doc.medium.density = DensityDoc::RgbGrid(GridRef { file: "grey.npy".into(), grid: None });
+    doc.medium_mut().density = DensityDoc::RgbGrid(GridRef { file: "grey.npy".into(), grid: None });
     assert!(build(&doc, &mut Library::default().with_base(folder.path())).is_err());
 }
 
@@ -81,7 +81,7 @@ fn an_albedo_grid_above_one_is_refused() {
     let folder = folder();
     std::fs::write(folder.path().join("a.npy"), npy("(1, 1, 1, 3)", &[0.5, 1.5, 0.2])).unwrap();
     let mut doc = SceneDoc::default();
-    doc.medium.albedo_grid = Some(GridRef { file: "a.npy".into(), grid: None });
+    doc.medium_mut().albedo_grid = Some(GridRef { file: "a.npy".into(), grid: None });
     let message = build(&doc, &mut Library::default().with_base(folder.path())).unwrap_err().to_string();
     assert!(message.contains("albedo_grid") && message.contains("1.5"), "{message}");
 }
@@ -92,15 +92,15 @@ fn phase_tables_are_read_from_files_and_bad_ones_refused() {
     let with_table = |text: &str| {
         std::fs::write(folder.path().join("lobe.csv"), text).unwrap();
         let mut doc = SceneDoc::default();
-        doc.medium.phase =
+        doc.medium_mut().phase =
             PhaseDoc::Tabulated { angle: Angle::Degrees, points: Vec::new(), file: "lobe.csv".into() };
         build(&doc, &mut Library::default().with_base(folder.path()))
     };
     let scene = with_table("theta, p\n0, 3\n90, 1\n180, 1\n").unwrap();
-    assert_eq!(scene.info.phase_points, [[0.0, 3.0], [90.0, 1.0], [180.0, 1.0]]);
+    assert_eq!(scene.info.medium(0).unwrap().phase_points, [[0.0, 3.0], [90.0, 1.0], [180.0, 1.0]]);
     // 1 in the backward hemisphere, 1 to 3 in the forward hemisphere: the mean is 1.5.
     let expected = 2.0 / 1.5 / (4.0 * std::f32::consts::PI);
-    assert!((scene.phase.value(0.5) / expected - 1.0).abs() < 1e-5);
+    assert!((scene.media[0].phase.value(0.5) / expected - 1.0).abs() < 1e-5);
     for (text, word) in [
         ("", "0 points"),
         ("0, 1\n90, x\n", "lobe.csv:2"),
@@ -114,7 +114,7 @@ fn phase_tables_are_read_from_files_and_bad_ones_refused() {
         assert!(message.contains("medium.phase.file") && message.contains(word), "{text}: {message}");
     }
     let mut doc = SceneDoc::default();
-    doc.medium.phase =
+    doc.medium_mut().phase =
         PhaseDoc::Tabulated { angle: Angle::Cosine, points: Vec::new(), file: "no.csv".into() };
     let message = build(&doc, &mut Library::default().with_base(folder.path())).unwrap_err().to_string();
     assert!(message.contains("no.csv"), "{message}");
@@ -230,14 +230,14 @@ fn absurd_scenes_are_refused_by_name() {
     }
     // An optical depth beyond the resolution of positions: a walk would not terminate.
     let mut deep = SceneDoc::default();
-    deep.medium.scale = 1e6;
+    deep.medium_mut().scale = 1e6;
     let message = build(&deep, &mut Library::default()).unwrap_err().to_string();
     assert!(message.contains("medium.scale") && message.contains("optical depth"), "{message}");
     let mut tiny = SceneDoc::default();
-    tiny.medium.placement.scale = [1e-11; 3];
+    tiny.medium_mut().placement.scale = [1e-11; 3];
     assert!(build(&tiny, &mut Library::default()).is_ok());
     let mut flat = SceneDoc::default();
-    flat.medium.placement.scale = [1.0, 0.0, 1.0];
+    flat.medium_mut().placement.scale = [1.0, 0.0, 1.0];
     let message = build(&flat, &mut Library::default()).unwrap_err().to_string();
     assert!(message.contains("placement"), "{message}");
 }

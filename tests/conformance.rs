@@ -115,7 +115,7 @@ fn a_clamped_majorant_is_labelled_and_caught() {
         estimator::REGISTRY.iter().map(|e| Entry { bias_of: |_| None, ..*e }).collect()
     });
     let mut case = check::named("single-scattering/grid-majorant-0.5").unwrap().remove(0);
-    case.doc.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+    case.doc.medium_mut().majorant.when_exceeded = WhenExceeded::Clamp;
     assert!(case.estimators().is_empty());
     case.registry = &UNLABELLED;
     for row in run(vec![case], Effort::QUICK).rows {
@@ -142,7 +142,7 @@ fn planted_faults_are_labelled_and_caught() {
         case.registry = &UNLABELLED;
         if fault == Fault::HeroProbability {
             // One channel only absorbs; there is no closed form for this case.
-            case.doc.medium.albedo = SpectrumDoc::Rgb([0.95, 0.0, 0.8]);
+            case.doc.medium_mut().albedo = SpectrumDoc::Rgb([0.95, 0.0, 0.8]);
             case.answer = check::Answer::Agreement;
         }
         assert!(run(vec![case.clone()], Effort::QUICK).passes(), "{name} without a fault");

@@ -37,7 +37,7 @@ fn the_last_stretch_to_a_light_is_not_skipped() {
             [estimator]
             mode = \"rgb\"",
         );
-        doc.medium.extinction = majorant_core::spectrum::SpectrumDoc::Constant(extinction);
+        doc.medium_mut().extinction = majorant_core::spectrum::SpectrumDoc::Constant(extinction);
         mean(&doc, "nee", 64).0
     };
     let (clear, dimmed) = (lit(0.0), lit(100.0));
@@ -124,15 +124,15 @@ fn the_majorant_is_exceeded_only_where_it_does_not_bound() {
             .into_iter()
             .flat_map(|r| [Interpolation::Trilinear, Interpolation::Stochastic].map(|i| (r, i)))
         {
-            doc.medium.majorant.resolution = resolution;
-            doc.medium.interpolation = interpolation;
-            doc.medium.majorant.factor = 1.0;
+            doc.medium_mut().majorant.resolution = resolution;
+            doc.medium_mut().interpolation = interpolation;
+            doc.medium_mut().majorant.factor = 1.0;
             let (none, lookups) = exceeded(&doc);
             assert!(
                 none == 0 && lookups > 1000,
                 "{name} {resolution:?} {interpolation:?}: {none} of {lookups}"
             );
-            doc.medium.majorant.factor = 0.5;
+            doc.medium_mut().majorant.factor = 0.5;
             let (some, lookups) = exceeded(&doc);
             assert!(
                 some > 0 && some < lookups,

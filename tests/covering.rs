@@ -157,7 +157,7 @@ fn choices() -> Vec<Choice> {
         choices.push(Choice {
             answer: Some(Answer::uniform(emission, Layout::WHOLE)),
             ..Choice::new("glows", row, |doc| {
-                doc.medium.emission = Some(EmissionDoc::default());
+                doc.medium_mut().emission = Some(EmissionDoc::default());
                 doc.lights.clear();
             })
         });
@@ -177,7 +177,8 @@ fn choices() -> Vec<Choice> {
     // collisions.
     fault(&uniform, None, |doc| doc.estimator.fault = Fault::NullByRounding);
     fault(&rough, Some(200_000), |doc| {
-        (doc.estimator.fault, doc.medium.majorant.factor) = (Fault::NullCap, 30.0);
+        doc.estimator.fault = Fault::NullCap;
+        doc.medium_mut().majorant.factor = 30.0;
     });
     // The hero's probabilities cancel unless another hero never samples the same event: green, with albedo 0,
     // never scatters.
@@ -186,9 +187,9 @@ fn choices() -> Vec<Choice> {
     let Answer::Known(mut colour) = row.place().answer() else { panic!("no known answer") };
     colour[1].mean = 0.0;
     let dark: [fn(&mut SceneDoc); 2] = [
-        |doc| doc.medium.albedo = SpectrumDoc::Rgb([0.9, 0.0, 0.5]),
+        |doc| doc.medium_mut().albedo = SpectrumDoc::Rgb([0.9, 0.0, 0.5]),
         |doc| {
-            doc.medium.albedo = SpectrumDoc::Rgb([0.9, 0.0, 0.5]);
+            doc.medium_mut().albedo = SpectrumDoc::Rgb([0.9, 0.0, 0.5]);
             doc.estimator.fault = Fault::HeroProbability;
         },
     ];

@@ -100,7 +100,7 @@ fn views_share_a_session() {
 fn a_scene_that_cannot_be_built_fails_and_the_session_lives_on() {
     let session = Watched::new();
     let mut bad = small_doc(2, 1);
-    bad.medium.density = majorant_core::scene::DensityDoc::Grid(majorant_core::scene::GridRef {
+    bad.medium_mut().density = majorant_core::scene::DensityDoc::Grid(majorant_core::scene::GridRef {
         file: "missing.vdb".into(),
         grid: None,
     });
@@ -123,7 +123,7 @@ fn endless_scenes() -> [SceneDoc; 2] {
     let dense = endless(2);
     // A closed white room without a medium: the path has no collisions.
     let mut room = dense.clone();
-    room.medium.extinction = SpectrumDoc::Constant(0.0);
+    room.medium_mut().extinction = SpectrumDoc::Constant(0.0);
     room.objects.push(ObjectDoc::Box {
         center: [0.0; 3],
         size: [3.0; 3],

@@ -11,6 +11,8 @@ mod inspect;
 mod laboratory;
 #[path = "gui/lessons.rs"]
 mod lessons;
+#[path = "gui/media.rs"]
+mod media;
 #[path = "gui/provenance.rs"]
 mod provenance;
 #[path = "gui/self_check.rs"]
@@ -76,17 +78,17 @@ fn dragging_the_majorant_is_one_step_and_renders_again() {
     let before = lab.state().state().generation;
     let at = lab.get_by_role_and_label(Role::SpinButton, "Majorant factor").rect().center();
     drag(&mut lab, at, at + vec2(60.0, 0.0), PointerButton::Primary, Modifiers::NONE);
-    let dragged = doc(&lab).medium.majorant.factor;
+    let dragged = doc(&lab).medium().majorant.factor;
     assert!(dragged > 1.2, "{dragged}");
     lab.step();
     assert!(lab.state().state().generation > before);
     undo(&mut lab);
-    assert_eq!(doc(&lab).medium.majorant.factor, 1.0);
+    assert_eq!(doc(&lab).medium().majorant.factor, 1.0);
     assert!(!lab.state().is_modified());
     redo(&mut lab);
-    assert_eq!(doc(&lab).medium.majorant.factor, dragged);
+    assert_eq!(doc(&lab).medium().majorant.factor, dragged);
     click(&mut lab, Role::Button, "Reset Majorant factor");
-    assert_eq!(doc(&lab).medium.majorant.factor, 1.0);
+    assert_eq!(doc(&lab).medium().majorant.factor, 1.0);
 }
 
 #[test]
@@ -104,7 +106,7 @@ fn numbers_are_typed_with_their_unit() {
 #[test]
 fn a_spectrum_point_is_dragged_added_and_removed() {
     let (mut lab, _directory) = lab();
-    let points = |lab: &Lab| match &doc(lab).medium.extinction {
+    let points = |lab: &Lab| match &doc(lab).medium().extinction {
         SpectrumDoc::Points { points, .. } => points.clone(),
         other => panic!("{other:?}"),
     };
@@ -140,21 +142,21 @@ fn every_phase_function_is_picked_and_edited() {
     for template in PhaseDoc::templates() {
         let label = format!("Phase function: {}", template.kind().short);
         click(&mut lab, Role::Button, &label);
-        assert_eq!(doc(&lab).medium.phase, template);
+        assert_eq!(doc(&lab).medium().phase, template);
         lab.check_accessibility();
         for (index, (parameter, value)) in template.parameters().into_iter().enumerate() {
             let name = format!("Phase {}", parameter.label);
             let to = 0.5 * (value + parameter.range[1]);
             lab.get_by_role_and_label(Role::SpinButton, &name).set_value_accesskit(f64::from(to));
             lab.run_steps(3);
-            let now = doc(&lab).medium.phase.parameters()[index].1;
+            let now = doc(&lab).medium().phase.parameters()[index].1;
             assert!((now - to).abs() < 1e-3 * to.abs(), "{name}: {now} instead of {to}");
         }
     }
     // The last template is the table.
     click(&mut lab, Role::Button, "First column: cos θ");
-    let PhaseDoc::Tabulated { angle: Angle::Cosine, points, .. } = &doc(&lab).medium.phase else {
-        panic!("{:?}", doc(&lab).medium.phase)
+    let PhaseDoc::Tabulated { angle: Angle::Cosine, points, .. } = &doc(&lab).medium().phase else {
+        panic!("{:?}", doc(&lab).medium().phase)
     };
     assert_eq!(points.last(), Some(&[1.0, 20.0]));
 }
@@ -162,23 +164,23 @@ fn every_phase_function_is_picked_and_edited() {
 #[test]
 fn coefficients_given_another_way_are_the_same_medium() {
     let (mut lab, _directory) = lab();
-    let before = doc(&lab).medium.clone();
+    let before = doc(&lab).medium().clone();
     click(&mut lab, Role::Button, "Coefficients: σa, σs");
-    let sums = doc(&lab).medium.coefficients.clone();
+    let sums = doc(&lab).medium().coefficients.clone();
     assert!(matches!(sums, Some(CoefficientsDoc::AbsorptionScattering { .. })), "{sums:?}");
     lab.check_accessibility();
     click(&mut lab, Role::Button, "Coefficients: Path, colour");
-    let paths = doc(&lab).medium.coefficients.clone();
+    let paths = doc(&lab).medium().coefficients.clone();
     assert!(matches!(paths, Some(CoefficientsDoc::MeanFreePathColour { .. })), "{paths:?}");
     lab.check_accessibility();
-    let [(t0, a0), (t, a)] = [&before, &doc(&lab).medium].map(|m| m.extinction_and_albedo(0.0));
+    let [(t0, a0), (t, a)] = [&before, doc(&lab).medium()].map(|m| m.extinction_and_albedo(0.0));
     for lambda in [430.0, 540.0, 572.0] {
         assert!((t.at(lambda) / t0.at(lambda) - 1.0).abs() < 1e-4, "{lambda}");
         assert!((a.at(lambda) - a0.at(lambda)).abs() < 1e-4, "{lambda}");
     }
     undo(&mut lab);
     undo(&mut lab);
-    assert_eq!(doc(&lab).medium, before);
+    assert_eq!(doc(&lab).medium(), &before);
 }
 
 #[test]

@@ -38,13 +38,13 @@ fn scenes() -> Vec<(String, SceneDoc)> {
         doc.estimator.light_walk = LightWalk::Separate;
     });
     vary("exceeded", &|doc| {
-        doc.medium.majorant.factor = 0.6;
-        doc.medium.majorant.when_exceeded = WhenExceeded::Weighted;
+        doc.medium_mut().majorant.factor = 0.6;
+        doc.medium_mut().majorant.when_exceeded = WhenExceeded::Weighted;
         doc.estimator.roulette_depth = Some(2);
     });
     vary("emissive, decomposed", &|doc| {
         let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
-        doc.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+        doc.medium_mut().emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
         doc.estimator.distances = DistanceSampling::Decomposition;
         doc.estimator.bookkeeping = Bookkeeping::Pairwise;
     });

@@ -15,8 +15,11 @@
 use glam::Vec3;
 use majorant_core::estimator::Settings;
 use majorant_core::io::{Library, scene_file};
-use majorant_core::math::{BoxRay, Ray, Sampler};
-use majorant_core::medium::{AnyMedium, LocalMedium, MajorantSegment, Medium};
+use majorant_core::math::{Ray, Sampler};
+use majorant_core::medium::{
+    AnyMedium, LocalMedia, LocalMedium, MajorantSegment, Medium, Member, One, PlacedMedium, Several,
+    Traversal,
+};
 use majorant_core::scene::{
     Absorption, DirectionSampling, DistanceSampling, Heuristic, Heuristics, LightSampling, LightSelection,
     Scene, SceneDoc, build,
@@ -24,7 +27,8 @@ use majorant_core::scene::{
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
 use majorant_core::transport::{
     Collision, DirectionSample, EquiangularWeights, Event, EventRule, LightDensities, Part, Passage,
-    PathWeights, Place, Reached, Vertex, WalkWeights, Weights, WeightsApart, WeightsPairwise, World,
+    PathWeights, Place, Reached, ScatteringPoint, Vertex, WalkWeights, Weights, WeightsApart,
+    WeightsPairwise, World,
 };
 use majorant_tests::fixture::npy;
 
@@ -38,6 +42,8 @@ struct Step {
     event: Event,
     /// Whether the collision is with the control, if the medium is decomposed into control and residual.
     control: bool,
+    /// Number that selects the medium, where several overlap.
+    label: f32,
 }
 
 /// Segment of a path, up to a scattering vertex or a light.
@@ -51,16 +57,14 @@ struct Stretch {
 }
 
 /// Majorant optical depth from `from` to `to` along a ray, per component.
-fn majorant_depth<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn majorant_depth<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     ray: &Ray,
     (from, to): (f32, f32),
 ) -> [f64; N] {
     let mut depth = [0.0; N];
-    let Some((t0, inside)) = BoxRay::enter(ray, &world.scene.medium_from_world, f32::INFINITY) else {
-        return depth;
-    };
-    for segment in world.medium.segments(&inside) {
+    let Some((t0, traversal)) = world.media.traverse(ray, f32::INFINITY) else { return depth };
+    for segment in traversal {
         let a = (t0 + segment.t0).max(from);
         let b = (t0 + segment.t1).min(to);
         for (d, m) in depth.iter_mut().zip(segment.majorant.0) {
@@ -70,16 +74,27 @@ fn majorant_depth<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     depth
 }
 
-/// World and medium position of a collision on a ray, and its majorant segment; `None` in empty space.
-fn segment_at<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+/// A collision on a ray with one of the media.
+struct Found<'w, M: LocalMedia<N> + 'w, const N: usize> {
+    traversal: M::Traversal<'w>,
+    point: Vec3,
+    member: Member<N>,
+    /// Segment with the sum of all majorants.
+    whole: MajorantSegment<N>,
+}
+
+/// The collision at a distance, with the medium that `label` selects: the same one for every hero. `None` in
+/// empty space.
+fn found_at<'w, M: LocalMedia<N>, C: Components<N>, const N: usize>(
+    world: &'w World<'_, M, C, N>,
     ray: &Ray,
-    t: f32,
-) -> Option<(Vec3, Vec3, MajorantSegment<N>)> {
-    let (t0, inside) = BoxRay::enter(ray, &world.scene.medium_from_world, f32::INFINITY)?;
+    (t, label): (f32, f32),
+) -> Option<Found<'w, M, N>> {
+    let (t0, mut traversal) = world.media.traverse(ray, f32::INFINITY)?;
     let local = t - t0;
-    let segment = world.medium.segments(&inside).find(|s| s.t0 <= local && local < s.t1)?;
-    Some((ray.at(t), inside.at(local), segment))
+    let whole = traversal.by_ref().find(|s| s.t0 <= local && local < s.t1)?;
+    let member = traversal.draw(local, &whole, |_| 1.0, || label);
+    Some(Found { traversal, point: ray.at(t), member, whole })
 }
 
 /// Probability of an event at a collision, found by bisection of the sampling routine.
@@ -125,8 +140,8 @@ impl<const N: usize> Term<N> {
 
 /// Updates P, f and the estimator's weights for a segment sampled by the walk: P from the sampling
 /// probabilities, f from the coefficients. Returns `None` if this hero cannot sample the segment.
-fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn walk<M: LocalMedia<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     stretch: &Stretch,
     term: &mut Term<N>,
     weights: &mut W,
@@ -136,9 +151,10 @@ fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
     for step in &stretch.steps {
         pass(world, &stretch.ray, (t, step.t), term, weights);
         t = step.t;
-        let (point, inside, segment) = segment_at(world, &stretch.ray, t)?;
-        let place = Place { point, inside, segment: &segment };
-        let (part, p_part) = match place.control(&world.medium, rule) {
+        let Found { traversal, point, member, whole } = found_at(world, &stretch.ray, (t, step.label))?;
+        let (medium, segment) = (traversal.medium(&member), member.segment);
+        let place = Place::of(point, &member);
+        let (part, p_part) = match place.control(medium, rule) {
             None => (Part::Whole, 1.0),
             Some((c, albedo)) => {
                 let share = f64::from(c.hero()) / f64::from(segment.majorant.hero());
@@ -149,9 +165,12 @@ fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
                 }
             }
         };
-        let collision = place.collide(&world.medium, rule, part);
-        term.p *= f64::from(segment.majorant.hero()) * p_part * probability(&collision, step.event);
-        let all = world.medium.coefficients(inside, &segment);
+        let collision = place.collide(medium, rule, part).in_medium(&member);
+        // The hero draws the distance from the sum of all majorants, and then the medium.
+        let p_medium = f64::from(segment.majorant.hero()) / f64::from(whole.majorant.hero());
+        let p_event = probability(&collision, step.event);
+        term.p *= f64::from(whole.majorant.hero()) * p_medium * p_part * p_event;
+        let all = medium.coefficients(member.inside, &segment);
         let of = |s: Sampled<N>| s.0.map(f64::from);
         let (absorbed, scattered, majorant) = (of(all.absorption), of(all.scattering), of(segment.majorant));
         match step.event {
@@ -187,8 +206,8 @@ fn walk<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
     Some(())
 }
 
-fn pass<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn pass<M: LocalMedia<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     ray: &Ray,
     between: (f32, f32),
     term: &mut Term<N>,
@@ -201,8 +220,8 @@ fn pass<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
 }
 
 /// Updates the terms for a connection, where ratio tracking treats every tentative collision as null.
-fn by_ratio<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn by_ratio<M: LocalMedia<N>, C: Components<N>, W: WalkWeights<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     (ray, steps, end): (&Ray, &[Step], f32),
     term: &mut Term<N>,
     weights: &mut W,
@@ -211,13 +230,15 @@ fn by_ratio<L: LocalMedium<N>, C: Components<N>, W: WalkWeights<N>, const N: usi
     for step in steps {
         pass(world, ray, (t, step.t), term, weights);
         t = step.t;
-        let (point, inside, segment) = segment_at(world, ray, t)?;
-        let all = world.medium.coefficients(inside, &segment);
+        let Found { traversal, point, member, .. } = found_at(world, ray, (t, step.label))?;
+        let segment = member.segment;
+        let all = traversal.medium(&member).coefficients(member.inside, &segment);
         term.p *= f64::from(segment.majorant.hero());
         term.scale(std::array::from_fn(|j| {
             f64::from(segment.majorant[j]) - f64::from(all.absorption[j]) - f64::from(all.scattering[j])
         }));
-        weights.null_by_ratio(&Collision::new(point, all, EventRule::from(&world.settings)));
+        let collision = Collision::new(point, all, EventRule::from(&world.settings));
+        weights.null_by_ratio(&collision.in_medium(&member));
     }
     pass(world, ray, (t, end), term, weights);
     Some(())
@@ -278,13 +299,50 @@ struct Path {
     u: f32,
 }
 
+/// Media of a scene that are evaluated at the components of a path.
+trait Media {
+    type Local<'a, const N: usize>: LocalMedia<N>
+    where
+        Self: 'a;
+
+    fn local<const N: usize, C: Components<N>>(&self, components: &C) -> Self::Local<'_, N>;
+}
+
+/// The only medium of a scene.
+struct Alone<'a, M>(&'a M, &'a PlacedMedium);
+
+impl<M: Medium> Media for Alone<'_, M> {
+    type Local<'a, const N: usize>
+        = One<'a, M::Local<'a, N>>
+    where
+        Self: 'a;
+
+    fn local<const N: usize, C: Components<N>>(&self, components: &C) -> Self::Local<'_, N> {
+        One { medium: self.0.local(components), placed: self.1 }
+    }
+}
+
+/// All media of a scene.
+struct All<'a>(&'a Scene);
+
+impl Media for All<'_> {
+    type Local<'a, const N: usize>
+        = Several<'a, N>
+    where
+        Self: 'a;
+
+    fn local<const N: usize, C: Components<N>>(&self, components: &C) -> Several<'_, N> {
+        Several::new(self.0.media.iter().map(|medium| &medium.placed), components, false)
+    }
+}
+
 struct Setup<'a, M> {
     scene: &'a Scene,
-    medium: &'a M,
+    media: M,
     settings: Settings,
 }
 
-impl<M: Medium> Setup<'_, M> {
+impl<M: Media> Setup<'_, M> {
     /// World whose hero is component `hero` of the path.
     fn world<C: Components<N>, const N: usize>(
         &self,
@@ -295,7 +353,7 @@ impl<M: Medium> Setup<'_, M> {
         let components = C::sample(u, Some(WavelengthSampling::Sensor));
         World {
             scene: self.scene,
-            medium: self.medium.local(&components),
+            media: self.media.local(&components),
             components,
             settings: self.settings.path,
         }
@@ -314,10 +372,9 @@ impl<M: Medium> Setup<'_, M> {
             let mut possible = true;
             for (i, stretch) in before.iter().enumerate() {
                 possible = possible && walk(&world, stretch, &mut term, &mut weights).is_some();
-                let point = stretch.ray.at(stretch.steps.last().unwrap().t);
-                let here = world.scattering_vertex(point, &stretch.ray);
+                let here = world.scattering_vertex(end_of(&world, stretch), &stretch.ray);
                 if possible && i + 1 < before.len() {
-                    let towards = world.directions().towards(&here, path.stretches[i + 1].ray.direction);
+                    let towards = world.directions(&here).towards(&here, path.stretches[i + 1].ray.direction);
                     outgoing(&towards, &mut term, &mut weights);
                 }
                 vertex = Some(here);
@@ -327,7 +384,7 @@ impl<M: Medium> Setup<'_, M> {
                 continue;
             }
             let vertex: Vertex = vertex.unwrap();
-            let towards = world.directions().towards(&vertex, last.ray.direction);
+            let towards = world.directions(&vertex).towards(&vertex, last.ray.direction);
             let light = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
             let after = (&last.ray, last.steps.as_slice(), last.end);
 
@@ -366,11 +423,10 @@ impl<M: Medium> Setup<'_, M> {
             let mut possible = true;
             for (i, stretch) in before.iter().enumerate() {
                 possible = possible && walk(&world, stretch, &mut term, &mut weights).is_some();
-                let point = stretch.ray.at(stretch.steps.last().unwrap().t);
-                let here = world.scattering_vertex(point, &stretch.ray);
+                let here = world.scattering_vertex(end_of(&world, stretch), &stretch.ray);
                 if possible {
                     outgoing(
-                        &world.directions().towards(&here, path.stretches[i + 1].ray.direction),
+                        &world.directions(&here).towards(&here, path.stretches[i + 1].ray.direction),
                         &mut term,
                         &mut weights,
                     );
@@ -379,13 +435,14 @@ impl<M: Medium> Setup<'_, M> {
             if !possible {
                 continue;
             }
-            let passage = Passage::through(self.scene, &scattering.ray, f32::INFINITY);
+            let passage = Passage::through(&world.media, &scattering.ray, f32::INFINITY);
             let step = scattering.steps.last().unwrap();
-            let point = scattering.ray.at(step.t);
-            let vertex = world.scattering_vertex(point, &scattering.ray);
-            let towards = world.directions().towards(&vertex, last.ray.direction);
+            let at = end_of(&world, scattering);
+            let point = at.point;
+            let vertex = world.scattering_vertex(at, &scattering.ray);
+            let towards = world.directions(&vertex).towards(&vertex, last.ray.direction);
             let nee = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
-            let reached = Reached::through(passage, point);
+            let reached = Reached::through(passage, at);
             let light: LightDensities = reached.light_densities(&world, path.light, point, nee);
             let after = (&last.ray, last.steps.as_slice(), last.end);
 
@@ -397,10 +454,16 @@ impl<M: Medium> Setup<'_, M> {
                 by_ratio(&world, (&scattering.ray, nulls, step.t), &mut term, &mut link).unwrap();
                 let choice =
                     |at| self.scene.light_choice.probability(path.light, at, self.settings.path.lights);
-                let by_angle = passage.unwrap().density(pivot, step.t) * choice(scattering.ray.origin);
-                let (_, inside, segment) = segment_at(&world, &scattering.ray, step.t).unwrap();
-                let place = Place { point, inside, segment: &segment };
-                let collision = place.collide(&world.medium, EventRule::from(&world.settings), Part::Whole);
+                let Found { traversal, member, whole, .. } =
+                    found_at(&world, &scattering.ray, (step.t, step.label)).unwrap();
+                // The medium is drawn by the mean of its majorant over the components.
+                let share = member.segment.majorant.mean() / whole.majorant.mean();
+                let by_angle =
+                    passage.unwrap().density(pivot, step.t) * choice(scattering.ray.origin) * share;
+                let rule = EventRule::from(&world.settings);
+                let collision =
+                    Place::of(point, &member).collide(traversal.medium(&member), rule, Part::Whole);
+                let collision = collision.in_medium(&member);
                 link.scatter_equiangular(&collision, by_angle);
                 let aim = nee / choice(point);
                 let densities = LightDensities { nee, eq: aim };
@@ -437,20 +500,26 @@ impl<M: Medium> Setup<'_, M> {
             Ray { origin: Vec3::new(0.3, 0.2, 2.0), direction: (Vec3::new(0.05, -0.04, -2.0)).normalize() };
         let vertices = 1 + usize::from(random.next_1d() < 0.6);
         for vertex in 0..=vertices {
-            let (t0, inside) = BoxRay::enter(&ray, &self.scene.medium_from_world, f32::INFINITY)?;
+            let (t0, traversal) = world.media.traverse(&ray, f32::INFINITY)?;
+            let length = traversal.t_end().min(20.0);
             let to_light = vertex == vertices;
             let last = if to_light { 1.0 } else { 0.2 + 0.7 * random.next_1d() };
             let nulls = (random.next_1d() * 3.0) as usize;
-            let mut ts: Vec<f32> = (0..nulls).map(|_| t0 + inside.t_end * last * random.next_1d()).collect();
+            let mut ts: Vec<f32> = (0..nulls).map(|_| t0 + length * last * random.next_1d()).collect();
             ts.sort_by(f32::total_cmp);
-            let step = |t, event, control| Step { t, event, control };
-            let mut steps: Vec<_> = ts.into_iter().map(|t| step(t, Event::Null, false)).collect();
+            let labels = [(); 4].map(|()| random.next_1d());
+            let step =
+                |(i, t): (usize, f32), event, control| Step { t, event, control, label: labels[i % 4] };
+            let mut steps: Vec<_> =
+                ts.into_iter().enumerate().map(|at| step(at, Event::Null, false)).collect();
             if !to_light {
-                steps.push(step(t0 + inside.t_end * last, Event::Scattering, random.next_1d() < 0.5));
+                let at = (3, t0 + length * last);
+                steps.push(step(at, Event::Scattering, random.next_1d() < 0.5));
             }
             for s in &mut steps {
-                let (point, inside, segment) = segment_at(&world, &ray, s.t)?;
-                let extinction = world.medium.coefficients(inside, &segment).extinction();
+                let Found { traversal, point, member, .. } = found_at(&world, &ray, (s.t, s.label))?;
+                let (medium, segment) = (traversal.medium(&member), member.segment);
+                let extinction = medium.coefficients(member.inside, &segment).extinction();
                 // Where a bound is tight, the difference to it is mostly rounding error.
                 let tight = |rest: Sampled<N>, whole: Sampled<N>| {
                     rest.abs().zip(whole, |r, w| if r < 1e-2 * w { 1.0 } else { 0.0 }).max_component() > 0.0
@@ -458,8 +527,8 @@ impl<M: Medium> Setup<'_, M> {
                 if s.event == Event::Null && tight(segment.majorant - extinction, segment.majorant) {
                     return None;
                 }
-                let place = Place { point, inside, segment: &segment };
-                let control = place.control(&world.medium, EventRule::from(&world.settings));
+                let place = Place::of(point, &member);
+                let control = place.control(medium, EventRule::from(&world.settings));
                 if let (Event::Scattering, Some((control, _))) = (s.event, control) {
                     s.control |= tight(extinction - control, extinction);
                 }
@@ -514,13 +583,58 @@ impl<M: Medium> Setup<'_, M> {
     }
 }
 
+/// Point at which a segment that ends in scattering ends.
+fn end_of<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
+    stretch: &Stretch,
+) -> ScatteringPoint {
+    let step = stretch.steps.last().unwrap();
+    let Found { point, member, .. } = found_at(world, &stretch.ray, (step.t, step.label)).unwrap();
+    ScatteringPoint { point, medium: member.index, share: member.share }
+}
+
+/// A second medium: chromatic in another way, with another phase function, half beside the first.
+const BESIDE: &str = "
+        [[medium]]
+        name = 'beside'
+        extinction = '430:0.7, 540:2.5, 620:1'
+        albedo = '430:0.3, 620:0.95'
+        phase = { kind = 'henyey-greenstein', g = -0.5 }
+        placement = { scale = [0.8, 0.7, 1.4], translate = [0.1, 0.2, -0.3] }";
+
+/// A third medium, without a grid and beyond the others.
+const AROUND: &str = "
+        [[medium]]
+        name = 'around'
+        extinction = '430:0.2, 620:0.1'
+        albedo = 0.8
+        within = 'everywhere'
+        extent = 3.0";
+
 /// Names and TOML of the media.
-fn grids() -> Vec<(&'static str, &'static str)> {
+fn grids() -> Vec<(&'static str, String)> {
+    let rough = "density = { kind = 'grid', file = 'rough.npy' }\nplacement = { fit = 1.0 }";
+    let colours = "density = { kind = 'rgb-grid', file = 'colours.npy' }\nplacement = { fit = 1.0 }";
     vec![
-        ("uniform", "density = { kind = \"uniform\" }"),
-        ("constant", "density = { kind = \"grid\", file = \"constant.npy\" }\nplacement = { fit = 1.0 }"),
-        ("rough", "density = { kind = \"grid\", file = \"rough.npy\" }\nplacement = { fit = 1.0 }"),
-        ("colours", "density = { kind = \"rgb-grid\", file = \"colours.npy\" }\nplacement = { fit = 1.0 }"),
+        ("uniform", "density = { kind = 'uniform' }".to_owned()),
+        ("constant", rough.replace("rough", "constant")),
+        ("rough", rough.to_owned()),
+        ("colours", colours.to_owned()),
+        (
+            "rough and uniform",
+            format!(
+                "{rough}
+{BESIDE}"
+            ),
+        ),
+        (
+            "colours, uniform and a ball",
+            format!(
+                "{colours}
+{BESIDE}
+{AROUND}"
+            ),
+        ),
     ]
 }
 
@@ -535,8 +649,8 @@ fn files() -> Library {
 
 fn document(grid: &str, mode: &str) -> SceneDoc {
     let toml = format!(
-        "majorant = 1
-        [medium]
+        "majorant = 2
+        [[medium]]
         extinction = \"430:3, 540:1.2, 620:2\"
         albedo = \"430:0.9, 620:0.5\"
         phase = {{ kind = \"henyey-greenstein\", g = 0.4 }}
@@ -568,13 +682,17 @@ fn contributions_of_all_heroes_and_techniques_sum_to_the_integrand() {
             {
                 for factor in [0.5f32, 1.0, 1.7] {
                     for absorption in [Absorption::Weighted, Absorption::Analogue] {
-                        let mut doc = document(grid, mode);
+                        let mut doc = document(&grid, mode);
                         doc.estimator.distances = distances;
-                        doc.medium.majorant.factor = factor;
+                        for medium in &mut doc.media {
+                            medium.majorant.factor = factor;
+                        }
                         doc.estimator.absorption = absorption;
                         // The remaining settings cycle, so that each of their values occurs with all of the
                         // above.
-                        doc.medium.majorant.shared = setups % 5 == 1;
+                        for medium in &mut doc.media {
+                            medium.majorant.shared = setups % 5 == 1;
+                        }
                         doc.estimator.heuristics.components = heuristics[setups % 4];
                         doc.estimator.heuristics.techniques = heuristics[setups / 4 % 3];
                         if setups % 2 == 0 {
@@ -596,23 +714,30 @@ fn contributions_of_all_heroes_and_techniques_sum_to_the_integrand() {
                         let settings = Settings::new(&doc.estimator, 0);
                         let what = format!(
                             "{name}, {mode}, {distances:?}, factor {factor}, {absorption:?}, {:?}, shared {}",
-                            doc.estimator.heuristics, doc.medium.majorant.shared
+                            doc.estimator.heuristics, doc.media[0].majorant.shared
                         );
-                        paths += match &scene.medium {
-                            AnyMedium::Homogeneous(m) => check(&scene, m, settings, &what),
-                            AnyMedium::DensityGrid(m) => check(&scene, m, settings, &what),
-                            AnyMedium::RgbGrids(m) => check(&scene, m, settings, &what),
+                        paths += match &*scene.media {
+                            [only] => match &only.placed.medium {
+                                AnyMedium::Homogeneous(m) => {
+                                    check(&scene, Alone(m, &only.placed), settings, &what)
+                                }
+                                AnyMedium::DensityGrid(m) => {
+                                    check(&scene, Alone(m, &only.placed), settings, &what)
+                                }
+                                AnyMedium::RgbGrids(_) => check(&scene, All(&scene), settings, &what),
+                            },
+                            _ => check(&scene, All(&scene), settings, &what),
                         };
                     }
                 }
             }
         }
     }
-    assert!(setups == 144 && paths > 40 * setups, "{paths} paths in {setups} setups");
+    assert!(setups == 216 && paths > 40 * setups, "{paths} paths in {setups} setups");
 }
 
-fn check<M: Medium>(scene: &Scene, medium: &M, settings: Settings, what: &str) -> usize {
-    let setup = Setup { scene, medium, settings };
+fn check(scene: &Scene, media: impl Media, settings: Settings, what: &str) -> usize {
+    let setup = Setup { scene, media, settings };
     match settings.mode {
         majorant_core::scene::Mode::Spectral => setup.check::<Wavelengths<4>, 4>(50, what),
         majorant_core::scene::Mode::Rgb => setup.check::<RgbChannels<3>, 3>(50, what),

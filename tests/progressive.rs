@@ -15,9 +15,9 @@ const VIEW: ViewId = ViewId(0);
 /// A scene whose majorants start at a tenth of the tight bound.
 fn doc(threads: usize, spp: u64, when_exceeded: WhenExceeded) -> SceneDoc {
     let mut doc = small_doc(threads, spp);
-    doc.medium.majorant.factor = 0.1;
-    doc.medium.majorant.resolution = Some(8);
-    doc.medium.majorant.when_exceeded = when_exceeded;
+    doc.medium_mut().majorant.factor = 0.1;
+    doc.medium_mut().majorant.resolution = Some(8);
+    doc.medium_mut().majorant.when_exceeded = when_exceeded;
     doc
 }
 
@@ -49,7 +49,7 @@ fn neither_threads_nor_pieces_nor_previews_matter() {
 fn the_error_vanishes_where_that_of_clamping_stays() {
     // Clamping reduces absorption.
     let absorbing = |mut doc: SceneDoc| {
-        doc.medium.albedo = SpectrumDoc::Constant(0.2);
+        doc.medium_mut().albedo = SpectrumDoc::Constant(0.2);
         brightness(&finished(&doc))
     };
     let truth = absorbing(small_doc(2, 256));
@@ -67,16 +67,16 @@ fn the_error_vanishes_where_that_of_clamping_stays() {
 #[test]
 fn a_homogeneous_medium_is_found_out_by_the_first_sample() {
     let mut doc = doc(2, 64, WhenExceeded::Progressive);
-    doc.medium.density = DensityDoc::Uniform {};
+    doc.medium_mut().density = DensityDoc::Uniform {};
     // A shared majorant is determined by one wavelength, which has to be sampled first.
-    doc.medium.majorant.shared = false;
+    doc.medium_mut().majorant.shared = false;
     let mut bounded = doc.clone();
-    bounded.medium.majorant.factor = 1.0;
+    bounded.medium_mut().majorant.factor = 1.0;
     let session = Watched::new();
     session.submit(VIEW, job(&doc, false));
     let raised = session.wait_finished(VIEW);
     let probe = session.state(VIEW).probe.unwrap();
-    assert_eq!(probe.violations().exceeded_cells(), 0);
+    assert_eq!(probe.violations(0).unwrap().exceeded_cells(), 0);
     // Only the first of 64 samples is clamped.
     let error = brightness(&raised) / brightness(&finished(&bounded)) - 1.0;
     assert!(error.abs() < 0.02, "{error}");
@@ -139,11 +139,11 @@ fn looking_at_paths_does_not_raise_the_majorants_of_the_film() {
         session.set_limits(VIEW, Limits::samples(spp));
         session.wait_picture(VIEW, |_, s| s.spp == spp);
         let probe = session.state(VIEW).probe.unwrap();
-        let found = probe.violations().exceeded_cells();
+        let found = probe.violations(0).unwrap().exceeded_cells();
         assert_eq!(probe.samples((30, 18), 1000..1200, CancelToken::NEVER).len(), 200);
         let other = probe.under(majorant_core::estimator::find("spectral-mis").unwrap());
         other.strategies(Split::Technique, 500..502, CancelToken::NEVER).unwrap();
-        assert_eq!(probe.violations().exceeded_cells(), found, "after {spp} samples");
+        assert_eq!(probe.violations(0).unwrap().exceeded_cells(), found, "after {spp} samples");
     }
     assert_same(&undisturbed, &session.wait_finished(VIEW));
 }

@@ -8,16 +8,16 @@ use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, DensityDoc, DirectionSampling,
     DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics,
-    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId, MediumDoc, Mode, ObjectDoc,
-    PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides,
-    WhenExceeded,
+    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId, MediumDoc, MediumOverrides,
+    Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc,
+    ViewOverrides, WhenExceeded, Within,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
 /// A document in which every key differs from its default.
 fn everything() -> SceneDoc {
     SceneDoc {
-        majorant: 1,
+        majorant: 2,
         title: "All \"keys\"".into(),
         note: "two\nlines".into(),
         camera: CameraDoc {
@@ -27,44 +27,56 @@ fn everything() -> SceneDoc {
             fov_deg: 21.5,
         },
         film: FilmDoc { width: 123, height: 45 },
-        medium: MediumDoc {
-            scale: 3.5,
-            extinction: SpectrumDoc::Points {
-                points: vec![
-                    ControlPoint { lambda_nm: 400.5, value: 1.25 },
-                    ControlPoint { lambda_nm: 700.0, value: 0.1 },
-                ],
-                outside: Outside::Zero,
+        media: vec![
+            MediumDoc {
+                name: "smoke".into(),
+                enabled: false,
+                within: Within::Grid,
+                extent: None,
+                scale: 3.5,
+                extinction: SpectrumDoc::Points {
+                    points: vec![
+                        ControlPoint { lambda_nm: 400.5, value: 1.25 },
+                        ControlPoint { lambda_nm: 700.0, value: 0.1 },
+                    ],
+                    outside: Outside::Zero,
+                },
+                albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]),
+                coefficients: Some(CoefficientsDoc::AbsorptionScattering {
+                    absorption: SpectrumDoc::Constant(0.25),
+                    scattering: SpectrumDoc::Rgb([1.0, 2.0, 3.0]),
+                }),
+                albedo_grid: Some(GridRef { file: "a.vol".into(), grid: None }),
+                density: DensityDoc::Grid(GridRef { file: "d.vdb".into(), grid: Some("smoke".into()) }),
+                precision: Precision::F16,
+                interpolation: Interpolation::Stochastic,
+                placement: PlacementDoc {
+                    fit: Some(2.0),
+                    scale: [1.0, 2.0, 3.0],
+                    rotate_deg: [10.0, 20.0, 30.0],
+                    translate: [4.0, 5.0, 6.0],
+                    matrix: Some([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0]]),
+                },
+                majorant: MajorantDoc {
+                    factor: 0.7,
+                    shared: true,
+                    when_exceeded: WhenExceeded::Clamp,
+                    resolution: Some(24),
+                },
+                emission: Some(EmissionDoc {
+                    temperature: Some(GridRef { file: "hot.vdb".into(), grid: None }),
+                    kelvin: 1.5,
+                    scale: 2.0,
+                }),
+                phase: PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.2, forward: 0.6 },
             },
-            albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]),
-            coefficients: Some(CoefficientsDoc::AbsorptionScattering {
-                absorption: SpectrumDoc::Constant(0.25),
-                scattering: SpectrumDoc::Rgb([1.0, 2.0, 3.0]),
-            }),
-            albedo_grid: Some(GridRef { file: "a.vol".into(), grid: None }),
-            density: DensityDoc::Grid(GridRef { file: "d.vdb".into(), grid: Some("smoke".into()) }),
-            precision: Precision::F16,
-            interpolation: Interpolation::Stochastic,
-            placement: PlacementDoc {
-                fit: Some(2.0),
-                scale: [1.0, 2.0, 3.0],
-                rotate_deg: [10.0, 20.0, 30.0],
-                translate: [4.0, 5.0, 6.0],
-                matrix: Some([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 2.0], [0.0, 0.0, 1.0, 3.0]]),
+            MediumDoc {
+                name: "fog".into(),
+                within: Within::Everywhere,
+                extent: Some(12.5),
+                ..MediumDoc::default()
             },
-            majorant: MajorantDoc {
-                factor: 0.7,
-                shared: true,
-                when_exceeded: WhenExceeded::Clamp,
-                resolution: Some(24),
-            },
-            emission: Some(EmissionDoc {
-                temperature: Some(GridRef { file: "hot.vdb".into(), grid: None }),
-                kelvin: 1.5,
-                scale: 2.0,
-            }),
-            phase: PhaseDoc::TwoLobe { g_forward: 0.8, g_backward: -0.2, forward: 0.6 },
-        },
+        ],
         lights: LightDoc::templates()
             .into_iter()
             .map(|(_, light)| light)
@@ -106,7 +118,11 @@ fn everything() -> SceneDoc {
                     roulette_depth: None,
                     ..EstimatorDoc::default()
                 },
-                majorant: MajorantDoc { factor: 2.0, ..MajorantDoc::default() },
+                majorant: MajorantDoc::default(),
+                media: vec![MediumOverrides {
+                    name: "fog".into(),
+                    majorant: MajorantDoc { factor: 1.5, ..MajorantDoc::default() },
+                }],
                 seed: 7,
                 camera: Some(CameraDoc { fov_deg: 12.0, ..CameraDoc::default() }),
                 view: Some(ViewDoc { exposure_ev: 2.0, ..ViewDoc::default() }),
@@ -128,7 +144,7 @@ fn everything() -> SceneDoc {
 
 fn with(edit: impl FnOnce(&mut MediumDoc)) -> SceneDoc {
     let mut doc = SceneDoc::default();
-    edit(&mut doc.medium);
+    edit(doc.medium_mut());
     doc
 }
 
@@ -187,7 +203,7 @@ fn every_spectrum_form_is_understood() {
         ("{ rgb = [1, 0.5, 0.0] }", SpectrumDoc::Rgb([1.0, 0.5, 0.0])),
     ] {
         let doc = parse(&format!("majorant = 1\n[medium]\nextinction = {form}\n"), "x").unwrap();
-        assert_eq!(doc.medium.extinction, expected, "{form}");
+        assert_eq!(doc.medium().extinction, expected, "{form}");
     }
 }
 
@@ -271,6 +287,92 @@ fn mistakes_are_named_with_line_and_column() {
     }
 }
 
+/// A file of version 1 has one medium in a table, or none, which is the default; it is saved as version 2.
+#[test]
+fn files_of_version_1_are_read_and_saved_as_version_2() {
+    let old = "majorant = 1\n[medium]\nscale = 3.0\n[medium.phase]\nkind = \"rayleigh\"\n";
+    let new = "majorant = 2\n[[medium]]\nscale = 3.0\n[medium.phase]\nkind = \"rayleigh\"\n";
+    let doc = parse(old, "old.toml").unwrap();
+    assert_eq!(doc, parse(new, "new.toml").unwrap());
+    assert_eq!((doc.majorant, doc.media.len(), doc.media[0].name.as_str()), (2, 1, "medium"));
+    let saved = to_toml(&doc);
+    assert!(saved.starts_with("majorant = 2\n") && saved.contains("[[medium]]"), "{saved}");
+    assert_eq!(parse("majorant = 1\n", "old.toml").unwrap().media.len(), 1);
+    assert_eq!(parse("majorant = 2\n", "new.toml").unwrap().media, []);
+    let message = parse("majorant = 3\n", "later.toml").unwrap_err().to_string();
+    assert!(message.contains("scene format 3") && message.contains("1 to 2"), "{message}");
+}
+
+const SEVERAL: &str = "majorant = 2
+[[medium]]
+name = \"cloud\"
+[[medium]]
+name = \"fog\"
+within = \"everywhere\"
+extent = 5.0
+";
+
+#[test]
+fn overrides_address_media_by_their_names() {
+    let doc = parse(SEVERAL, "several").unwrap();
+    let set = |assignment: &str| override_keys(&doc, &[assignment.to_owned()]);
+    assert_eq!(set("media.fog.scale=0.5").unwrap().media[1].scale, 0.5);
+    assert_eq!(set("media.cloud.majorant.factor=2").unwrap().media[0].majorant.factor, 2.0);
+    assert_eq!(set("medium.1.scale=0.5").unwrap().media[1].scale, 0.5);
+    for (bad, words) in [
+        ("medium.scale=2", "the scene has 2 media: write media.NAME.KEY with one of the names cloud, fog"),
+        ("media.mist.scale=2", "no medium is named `mist`"),
+        ("media.fog.name=cloud", "is the name of another medium"),
+    ] {
+        let message = set(bad).unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    }
+    // The only medium has both addresses.
+    let only = parse(SCENES[0].toml, "first-light").unwrap();
+    for key in ["medium.scale=2", "media.medium.scale=2"] {
+        assert_eq!(override_keys(&only, &[key.to_owned()]).unwrap().medium().scale, 2.0);
+    }
+    let none = parse("majorant = 2\n", "none").unwrap();
+    assert!(override_keys(&none, &["medium.scale=2".to_owned()]).is_err());
+}
+
+/// Invalid combinations of media: line, column and a word of the message.
+#[test]
+fn media_that_do_not_fit_together_are_rejected_where_they_stand() {
+    for (text, line, word) in [
+        ("[[medium]]\nname = \"a\"\n[[medium]]\nname = \"a\"\n", 5, "another medium"),
+        ("[[medium]]\nname = \"a.b\"\n", 3, "choose another name"),
+        ("[[medium]]\n[[medium]]\nname = \"b\"\nscale = -1.0\n", 5, "medium[1].scale"),
+        ("[[medium]]\nextent = 3.0\n", 3, "no effect"),
+        (
+            "[[medium]]\nwithin = \"everywhere\"\ndensity = { kind = \"grid\", file = \"a.vdb\" }\n",
+            3,
+            "needs uniform coefficients",
+        ),
+        (
+            "[[medium]]\nwithin = \"everywhere\"\nemission = { temperature = { file = \"a.vdb\" } }\n",
+            3,
+            "needs uniform coefficients",
+        ),
+        ("[[medium]]\nwithin = \"nowhere\"\n", 3, "everywhere"),
+        ("[[medium]]\n[[compare.views]]\nmedia = [{ name = \"b\" }]\n", 4, "this scene has not"),
+        (
+            "[[medium]]\n[[medium]]\nname = 'b'\n[[compare.views]]\nmedia = [{ name = 'c' }]\n",
+            6,
+            "not a medium of the scene",
+        ),
+        (
+            "[[medium]]\n[[medium]]\nname = 'b'\n[[compare.views]]\nmajorant = { factor = 2.0 }\n",
+            6,
+            "several",
+        ),
+    ] {
+        let message = parse(&format!("majorant = 2\n{text}"), "scene.toml").unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+        assert!(message.starts_with(&format!("scene.toml:{line}:")), "{message}");
+    }
+}
+
 #[test]
 fn overrides_reach_every_key() {
     let doc = parse(SCENES[0].toml, "first-light").unwrap();
@@ -289,12 +391,12 @@ fn overrides_reach_every_key() {
         "camera.origin.1=5",
     ])
     .unwrap();
-    assert_eq!(changed.medium.majorant.factor, 2.0);
-    assert_eq!(changed.medium.phase, PhaseDoc::HenyeyGreenstein { g: 0.7 });
+    assert_eq!(changed.medium().majorant.factor, 2.0);
+    assert_eq!(changed.medium().phase, PhaseDoc::HenyeyGreenstein { g: 0.7 });
     assert_eq!(changed.estimator.id, "nee");
     assert_eq!(changed.estimator.max_depth, Some(4));
     assert_eq!(changed.camera.origin[1], 5.0);
-    assert!(matches!(&changed.medium.extinction, SpectrumDoc::Points { points, .. } if points.len() == 2));
+    assert!(matches!(&changed.medium().extinction, SpectrumDoc::Points { points, .. } if points.len() == 2));
     let LightDoc::Rectangle { scale, .. } = &changed.lights[0] else { panic!("a rectangle") };
     assert_eq!(*scale, 3.5);
     for bad in

@@ -27,7 +27,10 @@ fn documents() -> Vec<(SceneDoc, Arc<Snapshot>)> {
         vary(1, &|_| {}),
         vary(2, &|doc| doc.estimator.id = "nee".into()),
         vary(3, &|doc| (doc.estimator.mode, doc.render.seed) = (Mode::Rgb, 7)),
-        vary(8, &|doc| (doc.film.width, doc.medium.scale) = (20, 0.5 * doc.medium.scale)),
+        vary(8, &|doc| {
+            doc.film.width = 20;
+            doc.medium_mut().scale *= 0.5;
+        }),
     ]
 }
 

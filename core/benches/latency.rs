@@ -21,7 +21,7 @@ fn edits(scene: &str, count: u64, measured: impl Fn(&Session) -> Option<f64>) ->
     let Ok(session) = Session::new(Library::default(), || {}) else { return Duration::ZERO };
     let mut total = 0.0;
     for edit in 0..=count {
-        doc.medium.scale *= if edit % 2 == 0 { 1.01 } else { 1.0 / 1.01 };
+        doc.medium_mut().scale *= if edit % 2 == 0 { 1.01 } else { 1.0 / 1.01 };
         session.submit(VIEW, Job { doc: Arc::new(doc.clone()), preview: true, role: Role::View });
         let since = Instant::now();
         // The image of an earlier submission is still present; only this number is reset.

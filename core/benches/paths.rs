@@ -10,7 +10,7 @@ use majorant_core::estimator::{Entry, PathIndex, REGISTRY, Settings, find};
 use majorant_core::io::Library;
 use majorant_core::math::SamplerKind;
 use majorant_core::scene::{
-    DensityDoc, DirectionSampling, GridRef, LightSampling, Mode, Scene, SceneDoc, build,
+    DensityDoc, DirectionSampling, GridRef, LightSampling, MediumDoc, Mode, Scene, SceneDoc, build,
 };
 use majorant_core::transport::CancelToken;
 
@@ -60,7 +60,7 @@ fn options(c: &mut Criterion) {
             d.estimator.directions = DirectionSampling::Product;
             d.estimator.light_sampling = LightSampling::Product;
         }),
-        ("global majorant", |d| d.medium.majorant.resolution = Some(1)),
+        ("global majorant", |d| d.medium_mut().majorant.resolution = Some(1)),
     ];
     for (name, edit) in edits {
         let mut doc = common::doc("plume-spectral");
@@ -79,13 +79,49 @@ fn sizes(c: &mut Criterion) {
     for n in [64usize, 128, 256, 512] {
         let mut doc = common::doc("cloud-sidelit");
         let name = format!("cloud_{n}x{n}x{n}.raw");
-        doc.medium.density = DensityDoc::Grid(GridRef { file: name.clone(), grid: None });
-        doc.medium.placement.fit = Some(1.0);
+        doc.medium_mut().density = DensityDoc::Grid(GridRef { file: name.clone(), grid: None });
+        doc.medium_mut().placement.fit = Some(1.0);
         let library = Library::default().with_volume(&name, cloud(n));
         let Ok(scene) = build(&doc, &mut library.clone()) else { continue };
         group.bench_function(BenchmarkId::from_parameter(format!("{n}³")), |b| {
             b.iter(|| trace(&scene, &doc, entry));
         });
+    }
+    group.finish();
+}
+
+/// A cloud as one medium, as several that overlap, each with its share of the extinction, and as a row of
+/// clouds beside each other of the same total length.
+fn media(c: &mut Criterion) {
+    let Some(entry) = find("uni-nee-mis") else { return };
+    let mut group = c.benchmark_group("media");
+    group.throughput(Throughput::Elements(u64::from(PATHS)));
+    let mut bench = |name: String, edit: &dyn Fn(usize, &mut MediumDoc), count: usize| {
+        let mut doc = common::doc("cloud-sidelit");
+        let one = doc.medium().clone();
+        doc.media.clear();
+        for index in 0..count {
+            let mut medium = MediumDoc { name: index.to_string(), ..one.clone() };
+            edit(index, &mut medium);
+            doc.media.push(medium);
+        }
+        let scene = common::frozen(&doc);
+        group.bench_function(name, |b| b.iter(|| trace(&scene, &doc, entry)));
+    };
+    for count in [1, 2, 8] {
+        bench(format!("{count} overlapping"), &|_, medium| medium.scale /= count as f32, count);
+    }
+    for count in [8, 64] {
+        // A plate of small clouds in the place of the large one, four deep.
+        let side = (count / 4) as f32;
+        let small = move |index: usize, medium: &mut MediumDoc| {
+            let scale = medium.placement.fit.unwrap_or(1.0) / side.max(4.0);
+            let at = |i: usize, n: f32| (i as f32 + 0.5 - 0.5 * n) * scale;
+            medium.placement.fit = Some(scale);
+            medium.placement.translate = [at(index / 4, side), 0.0, at(index % 4, 4.0)];
+            medium.scale /= scale;
+        };
+        bench(format!("{count} disjoint"), &small, count);
     }
     group.finish();
 }
@@ -101,5 +137,5 @@ fn cloud(n: usize) -> Vec<u8> {
     (0..n * n * n).flat_map(|i| value(i).to_le_bytes()).collect()
 }
 
-criterion_group! { name = benches; config = common::config(); targets = estimators, options, sizes }
+criterion_group! { name = benches; config = common::config(); targets = estimators, options, sizes, media }
 criterion_main!(benches);

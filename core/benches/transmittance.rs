@@ -6,8 +6,8 @@ mod common;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use glam::Vec2;
-use majorant_core::math::{BoxRay, Sampler};
-use majorant_core::medium::{AnyMedium, LocalMedium, Medium};
+use majorant_core::math::Sampler;
+use majorant_core::medium::{AnyMedium, LocalMedia, Medium, One};
 use majorant_core::scene::Scene;
 use majorant_core::spectrum::{Components, Wavelengths};
 use majorant_core::transmittance::{Analytic, InMedium, Shape, TransmittanceKind};
@@ -30,14 +30,14 @@ fn closed_form<const N: usize>(c: &mut Criterion, extinction: [f32; N]) {
     group.finish();
 }
 
-fn along_rays<L: LocalMedium<4>>(scene: &Scene, local: &L, kind: TransmittanceKind) -> (f32, u64) {
+fn along_rays<M: LocalMedia<4>>(scene: &Scene, media: &M, kind: TransmittanceKind) -> (f32, u64) {
     let size = Vec2::new(scene.width as f32, scene.height as f32);
     let (mut sum, mut lookups) = (0.0, 0);
     for path in 0..u64::from(RAYS) {
         let mut sampler = Sampler::new(3, path, 0);
         let ray = scene.camera.ray(sampler.next_2d() * size);
-        let Some((_, ray)) = BoxRay::enter(&ray, &scene.medium_from_world, f32::INFINITY) else { continue };
-        let found = kind.estimate(&InMedium::new(local, ray), &mut sampler);
+        let Some((_, traversal)) = media.traverse(&ray, f32::INFINITY) else { continue };
+        let found = kind.estimate(&InMedium::new(traversal), &mut sampler);
         sum += found.weight.mean();
         lookups += u64::from(found.lookups);
     }
@@ -48,12 +48,14 @@ fn in_media(c: &mut Criterion) {
     for name in ["plume-spectral", "cloud-backlit"] {
         let doc = common::doc(name);
         let scene = common::frozen(&doc);
-        let AnyMedium::DensityGrid(medium) = &scene.medium else { continue };
-        let local = medium.local(&Wavelengths::<4>::sample(0.3, Some(doc.estimator.wavelengths)));
+        let placed = &scene.media[0].placed;
+        let AnyMedium::DensityGrid(medium) = &placed.medium else { continue };
+        let components = Wavelengths::<4>::sample(0.3, Some(doc.estimator.wavelengths));
+        let media = One { medium: medium.local(&components), placed };
         let mut group = c.benchmark_group(format!("transmittance/{name}"));
         group.throughput(Throughput::Elements(u64::from(RAYS)));
         for kind in TransmittanceKind::all() {
-            group.bench_function(kind.entry().id, |b| b.iter(|| along_rays(&scene, &local, kind)));
+            group.bench_function(kind.entry().id, |b| b.iter(|| along_rays(&scene, &media, kind)));
         }
         group.finish();
     }

@@ -16,6 +16,9 @@ use std::sync::{LazyLock, Mutex};
 /// Axis of the density, which is not a key of the table: a uniform density and three grids.
 pub const DENSITY: &str = "density";
 
+/// Axis of the number of media, which is not a key of the table: the medium as a whole, or as the sum of two.
+pub const MEDIA: &str = "media";
+
 /// Keys that affect the estimate but are not axes, with the reason.
 pub const NO_AXES: [(&str, &str); 2] = [
     ("render.seed", "it selects the random numbers: every row has its own"),
@@ -82,6 +85,16 @@ impl Values {
     }
 }
 
+fn put(table: &mut toml::Value, path: &str, value: &toml::Value) {
+    let mut at = table;
+    let mut names: Vec<_> = path.split('.').collect();
+    let name = names.pop().unwrap();
+    for folder in names {
+        at = &mut at.as_table_mut().unwrap()[folder];
+    }
+    at.as_table_mut().unwrap().insert(name.into(), value.clone());
+}
+
 fn written(word: &str) -> String {
     format!("{word:?}")
 }
@@ -99,6 +112,8 @@ pub static AXES: LazyLock<Vec<Values>> = LazyLock::new(|| {
     let mut axes: Vec<_> = keys_of_the_estimate().filter(is_axis).map(Values::of).collect();
     let densities = Density::ALL.map(|density| written(density.name())).to_vec();
     axes.push(Values { key: DENSITY, axis: None, values: densities });
+    let media = ["one", "two"].map(written).to_vec();
+    axes.push(Values { key: MEDIA, axis: None, values: media });
     axes
 });
 
@@ -247,6 +262,7 @@ impl Row {
             spectral: self.value("estimator.mode") == "spectral",
             percent: self.percent.unwrap_or(thin),
             size: self.size,
+            two: self.value(MEDIA) == "two",
         }
     }
 
@@ -262,17 +278,17 @@ impl Row {
             .or_insert_with(|| toml::Value::try_from(place.document()).unwrap())
             .clone();
         let mut parsed = PARSED.lock().unwrap();
-        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| axis.key != DENSITY) {
+        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| ![DENSITY, MEDIA].contains(&axis.key)) {
             let text = &axis.values[self.values[a]];
             let value = parsed.entry(text).or_insert_with(|| {
                 toml::from_str::<toml::Table>(&format!("v = {text}")).unwrap().remove("v").unwrap()
             });
-            let mut at = &mut tree;
-            let (folders, name) = axis.key.rsplit_once('.').unwrap();
-            for folder in folders.split('.') {
-                at = &mut at.as_table_mut().unwrap()[folder];
+            let (section, path) = axis.key.split_once('.').unwrap();
+            match &mut tree[section] {
+                // All media have the same settings.
+                toml::Value::Array(media) => media.iter_mut().for_each(|medium| put(medium, path, value)),
+                table => put(table, path, value),
             }
-            at.as_table_mut().unwrap().insert(name.into(), value.clone());
         }
         drop(parsed);
         tree.try_into().unwrap()

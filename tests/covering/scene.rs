@@ -71,6 +71,8 @@ pub struct Place {
     pub percent: u32,
     /// Length scale in per cent; optical depths are unchanged.
     pub size: u32,
+    /// Whether the medium is the sum of two.
+    pub two: bool,
 }
 
 const EXTINCTION_NM: [(f64, f64); 3] = [(430.0, 1.2), (540.0, 0.5), (620.0, 0.9)];
@@ -79,6 +81,11 @@ const EXTINCTION_RGB: [f64; 3] = [0.9, 0.5, 1.2];
 const ALBEDO_RGB: [f64; 3] = [0.9, 0.7, 0.5];
 const EXTINCTION_GREY: f64 = 0.9;
 const ALBEDO_GREY: f64 = 0.7;
+
+/// Share of the first of two media in the extinction.
+const SHARE: f64 = 0.4;
+/// Ratio of its albedo to that of both together.
+const BRIGHTER: f64 = 1.1;
 
 impl Place {
     /// Whether the renderer may carry one component for all.
@@ -91,22 +98,22 @@ impl Place {
     }
 
     pub fn toml(&self) -> String {
-        let (extinction, albedo) = match (self.chromatic, self.spectral) {
-            (false, _) => (EXTINCTION_GREY.to_string(), ALBEDO_GREY.to_string()),
-            (true, false) => {
-                (format!("{{ rgb = {EXTINCTION_RGB:?} }}"), format!("{{ rgb = {ALBEDO_RGB:?} }}"))
-            }
-            (true, true) => (points(&EXTINCTION_NM), points(&ALBEDO_NM)),
+        let extinction = match (self.chromatic, self.spectral) {
+            (false, _) => EXTINCTION_GREY.to_string(),
+            (true, false) => format!("{{ rgb = {EXTINCTION_RGB:?} }}"),
+            (true, true) => points(&EXTINCTION_NM),
+        };
+        let albedo = |by: f64| match (self.known, self.chromatic, self.spectral) {
+            (Known::Transmittance, ..) => "0.0".into(),
+            (Known::Furnace, ..) => "1.0".into(),
+            (Known::Single, false, _) => (ALBEDO_GREY * by).to_string(),
+            (Known::Single, true, false) => format!("{{ rgb = {:?} }}", ALBEDO_RGB.map(|a| a * by)),
+            (Known::Single, true, true) => points(&ALBEDO_NM.map(|(l, a)| (l, a * by))),
         };
         let (kind, file) = self.density.kind();
         let (file, fit) = match file {
             Some(file) => (format!(", file = {file:?}"), "fit = 1.0, "),
             None => (String::new(), ""),
-        };
-        let albedo = match self.known {
-            Known::Transmittance => "0.0".into(),
-            Known::Single => albedo,
-            Known::Furnace => "1.0".into(),
         };
         let size = f64::from(self.size) / 100.0;
         let (sky, lamp, seen, depth) = match self.known {
@@ -114,8 +121,30 @@ impl Place {
             Known::Furnace => (1.0, 1.0, false, ""),
             Known::Single => (truth::SKY_RADIANCE, truth::LAMP_RADIANCE, false, "max_depth = 2"),
         };
+        let medium = |name: &str, share: f64, albedo: String| {
+            format!(
+                "[[medium]]
+                name = \"{name}\"
+                scale = {}
+                extinction = {extinction}
+                albedo = {albedo}
+                phase = {{ kind = \"henyey-greenstein\", g = {} }}
+                density = {{ kind = \"{kind}\"{file} }}
+                placement = {{ {fit}scale = {:?} }}",
+                share * self.scale() / size,
+                truth::ASYMMETRY,
+                truth::EXTENT.map(|x| x * size),
+            )
+        };
+        let media = if self.two {
+            // Shares and albedos of the parts add up to those of the whole.
+            let rest = (1.0 - SHARE * BRIGHTER) / (1.0 - SHARE);
+            [medium("part", SHARE, albedo(BRIGHTER)), medium("rest", 1.0 - SHARE, albedo(rest))].join("\n")
+        } else {
+            medium("whole", 1.0, albedo(1.0))
+        };
         format!(
-            "majorant = 1
+            "majorant = 2
             [camera]
             origin = [0.0, 0.0, {:?}]
             target = [0.0, 0.0, 0.0]
@@ -123,13 +152,7 @@ impl Place {
             [film]
             width = 2
             height = 2
-            [medium]
-            scale = {}
-            extinction = {extinction}
-            albedo = {albedo}
-            phase = {{ kind = \"henyey-greenstein\", g = {} }}
-            density = {{ kind = \"{kind}\"{file} }}
-            placement = {{ {fit}scale = {:?} }}
+            {media}
             [[lights]]
             kind = \"environment\"
             scale = {sky:?}
@@ -142,9 +165,6 @@ impl Place {
             [estimator]
             {depth}",
             60.0 * size,
-            self.scale() / size,
-            truth::ASYMMETRY,
-            truth::EXTENT.map(|x| x * size),
             truth::LAMP.map(|x| x * size),
             truth::LAMP_RADIUS * size,
         )

@@ -66,7 +66,7 @@ fn a_scene_is_saved_and_loaded_again() {
     assert!(!lab.state().is_modified());
     let saved = majorant_core::io::scene_file::load(&directory.path().join("test.toml")).expect("it loads");
     assert_eq!(saved, *doc(&lab));
-    assert_eq!(saved.medium.majorant.factor, 3.0);
+    assert_eq!(saved.medium().majorant.factor, 3.0);
 }
 
 #[test]
@@ -97,11 +97,13 @@ fn a_dropped_volume_fills_the_medium() {
     let bytes = majorant_core::io::embedded::volume("embedded:plume.vdb").expect("an embedded volume");
     std::fs::write(&path, bytes).expect("a file");
     drop_file(&mut lab, path);
-    wait(&mut lab, "filling", |app| matches!(app.doc().medium.density, DensityDoc::Grid(_)));
-    let grid = doc(&lab).medium.density.grid().expect("a grid").clone();
+    wait(&mut lab, "filling", |app| matches!(app.doc().medium().density, DensityDoc::Grid(_)));
+    let grid = doc(&lab).medium().density.grid().expect("a grid").clone();
     assert_eq!(grid.file, "plume.vdb", "relative to the scene file");
-    assert_eq!(doc(&lab).medium.placement.fit, Some(1.0));
-    wait(&mut lab, "rendering it", |app| app.state().scene.as_ref().is_some_and(|s| s.grid_size.is_some()));
+    assert_eq!(doc(&lab).medium().placement.fit, Some(1.0));
+    wait(&mut lab, "rendering it", |app| {
+        app.state().scene.as_ref().is_some_and(|s| s.medium(0).is_some_and(|m| m.grid_size.is_some()))
+    });
 }
 
 #[test]

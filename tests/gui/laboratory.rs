@@ -71,7 +71,7 @@ fn the_curve_of_the_factor_is_measured_and_says_of_what() {
     open(&mut lab, "Cost and bias by factor");
     // A thin medium, so that the many paths are short.
     let mut thin = doc(&lab).clone();
-    thin.medium.scale = 0.02;
+    thin.medium_mut().scale = 0.02;
     lab.state_mut().request(Command::Edit(Box::new(thin)));
     wait(&mut lab, "the thin scene", |app| app.state().status == Status::Finished);
     lab.run_steps(12);

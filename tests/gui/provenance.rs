@@ -175,7 +175,7 @@ fn paused_are_all_views_and_the_reference_those_that_come_later_too() {
     // New views, a reference and an edit of the scene get no samples.
     wall(&mut lab, WallEdit::Count(4));
     wall(&mut lab, WallEdit::Reference(rendered()));
-    edit(&mut lab, |doc| doc.medium.scale = 2.0);
+    edit(&mut lab, |doc| doc.medium_mut().scale = 2.0);
     let still = |app: &LabApp| {
         let slots = || app.wall().slots().iter().chain(app.wall().rendered_reference());
         for slot in slots() {
@@ -286,7 +286,7 @@ fn nothing_is_measured_against_a_picture_without_samples() {
         assert!(text.contains('±') && labels(&lab, &text) >= 2, "{text}");
     }
     // An edit of the scene restarts the reference: its old image and its statistics disappear at once.
-    edit(&mut lab, |doc| doc.medium.scale = 1.5);
+    edit(&mut lab, |doc| doc.medium_mut().scale = 1.5);
     lab.step();
     assert_current(lab.state());
     assert_eq!((labels(&lab, "relMSE "), labels(&lab, "400 spp")), (0, 0));
@@ -332,7 +332,7 @@ fn a_path_is_that_of_the_scene_as_it_is_now() {
     lab.state_mut().request(Command::Pick([16, 9]));
     let mut before = String::new();
     for scale in [1.0, 0.3, 2.0, 0.1] {
-        edit(&mut lab, |doc| doc.medium.scale = scale);
+        edit(&mut lab, |doc| doc.medium_mut().scale = scale);
         // The path may be requested in every frame, including the first.
         lab.step();
         assert!(before.is_empty() || labels(&lab, &before) == 0, "the path of scale {scale} is another");

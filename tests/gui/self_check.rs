@@ -41,7 +41,7 @@ fn this_scene_is_checked_estimator_against_estimator() {
     assert_eq!(lab.state().self_check().rows().len(), all);
     click(&mut lab, Role::Button, "Close");
     let mut edited = doc(&lab).clone();
-    edited.medium.scale = 2.0;
+    edited.medium_mut().scale = 2.0;
     lab.state_mut().request(Command::Edit(Box::new(edited)));
     lab.run_steps(2);
     opened(&mut lab);

@@ -14,12 +14,14 @@ use majorant_core::spectrum::WavelengthSampling;
 fn majorant_cells_are_chosen_counted_and_shown() {
     let mut lab = lab_on(Source::first());
     wait(&mut lab, "freezing the scene", |app| app.state().scene.is_some());
-    let cells = |app: &majorant::lab::LabApp| app.state().scene.as_ref().and_then(|info| info.majorant_cells);
+    let cells = |app: &majorant::lab::LabApp| {
+        app.state().scene.as_ref().and_then(|info| info.medium(0)?.majorant_cells)
+    };
     let automatic = cells(lab.state()).expect("a grid");
     assert!(automatic > 1);
     click(&mut lab, Role::CheckBox, "Resolution on");
     assert_eq!(
-        doc(&lab).medium.majorant.resolution,
+        doc(&lab).medium().majorant.resolution,
         Some(automatic as u32),
         "it starts at the automatic resolution"
     );
@@ -29,7 +31,7 @@ fn majorant_cells_are_chosen_counted_and_shown() {
     let at = |lab: &mut super::Lab, n: u32| {
         lab.get_by_role_and_label(Role::SpinButton, "Resolution").set_value_accesskit(f64::from(n));
         lab.run_steps(2);
-        assert_eq!(doc(lab).medium.majorant.resolution, Some(n));
+        assert_eq!(doc(lab).medium().majorant.resolution, Some(n));
         let generation = lab.state().state().generation;
         wait(lab, "pictures of the new cells", |app| {
             app.state().generation >= generation
@@ -70,12 +72,12 @@ fn samples_directions_and_storage_are_chosen_by_name() {
     assert_eq!(doc(&lab).estimator.wavelengths, WavelengthSampling::Uniform);
     click(&mut lab, Role::Button, "Precision: 8");
     click(&mut lab, Role::Button, "Interpolation: One sample");
-    let medium = &doc(&lab).medium;
+    let medium = doc(&lab).medium();
     assert_eq!((medium.precision, medium.interpolation), (Precision::U8, Interpolation::Stochastic));
     let generation = lab.state().state().generation;
     wait(&mut lab, "saying what eight bits cost", |app| {
         app.state().generation >= generation
-            && app.state().scene.as_ref().is_some_and(|info| info.storage_error > 0.0)
+            && app.state().scene.as_ref().is_some_and(|s| s.medium(0).is_some_and(|m| m.storage_error > 0.0))
     });
 }
 

@@ -255,7 +255,7 @@ fn a_dropped_render_is_the_reference_until_the_scene_changes() {
     assert_eq!(lab.state().wall().reference_state().problem, None);
     // The scene has changed: the file must not be used.
     let mut edited = doc(&lab).clone();
-    edited.medium.scale = 2.0;
+    edited.medium_mut().scale = 2.0;
     lab.state_mut().request(Command::Edit(Box::new(edited)));
     wait(&mut lab, "being stale", |app| app.wall().reference_state().problem.is_some());
     wait(&mut lab, "new numbers", |app| {

@@ -8,7 +8,7 @@ use glam::Vec3;
 use line::Line;
 use majorant_core::io::{Library, scene_file};
 use majorant_core::math::{BoxRay, Ray, Sampler};
-use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium};
+use majorant_core::medium::{AnyMedium, Coefficients, LocalMedium, MajorantSegment, Medium, One};
 use majorant_core::scene::{Absorption, DistanceSampling, Scene, build};
 use majorant_core::spectrum::{Components, RgbChannels, Sampled, WavelengthSampling, Wavelengths};
 use majorant_core::transport::{CancelToken, Event, EventRule, PathWeights, Trace, Walk, WalkWeights};
@@ -38,9 +38,10 @@ fn fly<L: LocalMedium<N>, const N: usize>(
     family: &mut Family,
     name: &str,
     truth: &Truth,
-    (medium, scene): (&L, &Scene),
+    (medium, scene): (L, &Scene),
     (ray, t_max): (&Ray, f32),
 ) {
+    let media = One { medium, placed: &scene.media[0].placed };
     let by = |absorption, distances| EventRule { absorption, distances };
     for (stream, rule) in [
         by(Absorption::Analogue, DistanceSampling::Delta),
@@ -56,7 +57,7 @@ fn fly<L: LocalMedium<N>, const N: usize>(
         let (mut first, mut second, mut real) = (Vec::new(), Vec::new(), Vec::new());
         for i in 0..WALKS {
             let mut trace = Trace::new(Sampler::new(9, i, stream as u64), CancelToken::NEVER);
-            let mut walk = Walk::new(medium, scene, ray, t_max, rule);
+            let mut walk = Walk::new(&media, ray, t_max, rule);
             let mut weights = PathWeights::CAMERA;
             let mut before = Vec::new();
             while let Some(collision) = walk.next_collision(&mut trace, &mut weights) {
@@ -124,16 +125,16 @@ fn fly_at<C: Components<N>, const N: usize>(
     let global = |t: f64| global * (t - line.enter);
     let extinction = |t: f64| hero * line.column(t);
     let truth = |majorant| Truth { majorant, extinction: &extinction, end: end.min(line.exit) };
-    match &scene.medium {
-        AnyMedium::Homogeneous(m) => fly(family, name, &truth(&global), (&m.local(components), scene), ray),
+    match &scene.media[0].placed.medium {
+        AnyMedium::Homogeneous(m) => fly(family, name, &truth(&global), (m.local(components), scene), ray),
         AnyMedium::DensityGrid(m) if m.bounds.cells() == 1 => {
-            fly(family, name, &truth(&global), (&m.local(components), scene), ray);
+            fly(family, name, &truth(&global), (m.local(components), scene), ray);
         }
         AnyMedium::DensityGrid(m) => {
             let local = m.local(components);
             let depth = depth_by_cells(&local, scene, line);
             assert!(depth(line.exit) < 0.9 * global(line.exit), "local majorants are not tighter");
-            fly(family, name, &truth(&depth), (&local, scene), ray);
+            fly(family, name, &truth(&depth), (local, scene), ray);
         }
         AnyMedium::RgbGrids(_) => panic!("there is no RGB grid"),
     }
@@ -144,10 +145,10 @@ fn depth_by_cells<L: LocalMedium<N>, const N: usize>(
     medium: &L,
     scene: &Scene,
     line: &Line,
-) -> impl Fn(f64) -> f64 {
+) -> impl Fn(f64) -> f64 + use<L, N> {
     let entry = line.ray.at(line.enter as f32);
     let ray = Ray { origin: entry, direction: line.ray.direction };
-    let (_, ray) = BoxRay::enter(&ray, &scene.medium_from_world, f32::INFINITY).unwrap();
+    let (_, ray) = BoxRay::enter(&ray, scene.media[0].medium_from_world(), f32::INFINITY).unwrap();
     let cells: Vec<_> = medium.segments(&ray).collect();
     let enter = line.enter;
     move |t| {
@@ -235,7 +236,7 @@ fn one_optical_depth_is_spent_over_many_stretches() {
         };
         let extinction = |t: f64| f64::from(EXTINGUISHED) * majorant(t);
         let truth = Truth { majorant: &majorant, extinction: &extinction, end: line.exit };
-        fly(&mut family, &format!("hero {hero}"), &truth, (&Stretches { hero }, &scene), (&line.ray, 9.0));
+        fly(&mut family, &format!("hero {hero}"), &truth, (Stretches { hero }, &scene), (&line.ray, 9.0));
     }
     family.judge();
 }

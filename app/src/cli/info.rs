@@ -151,8 +151,16 @@ fn scene(path: &Path, json: bool) -> Result<(), Failure> {
         doc.objects.len(),
         doc.estimator.id
     ))?;
-    match doc.medium.density.grid() {
-        Some(grid) => print_line(&format!("density from {}", grid.file)),
-        None => print_line("homogeneous medium"),
+    for medium in &doc.media {
+        let density = match medium.density.grid() {
+            Some(grid) => format!("density from {}", grid.file),
+            None => "homogeneous medium".to_owned(),
+        };
+        let disabled = if medium.enabled { "" } else { ", disabled" };
+        match doc.media.len() {
+            1 => print_line(&format!("{density}{disabled}"))?,
+            _ => print_line(&format!("{}: {density}{disabled}", medium.name))?,
+        }
     }
+    Ok(())
 }

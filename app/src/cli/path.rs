@@ -1,8 +1,10 @@
 //! `majorant path`: events of one path of an image.
 
+use super::source::Frozen;
 use super::{Failure, print_line, source};
 use majorant_core::estimator::PathIndex;
 use majorant_core::inspect::{Ledger, Row};
+use majorant_core::scene::Scene;
 use majorant_core::session::Probe;
 use majorant_core::spectrum::Carried;
 use majorant_core::transport::CancelToken;
@@ -59,7 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recording = probe.record(at, CancelToken::NEVER);
     let ledger = Ledger::new(&recording);
     if arguments.json {
-        return print_line(&json(&ledger, at, entry.id).to_string());
+        return print_line(&json(&ledger, at, (&frozen, probe.scene())).to_string());
     }
     print_line(&format!("{}, pixel {x} {y}, sample {sample}: {}", entry.name, carried(&ledger.carried)))?;
     print_line(&format!(
@@ -125,7 +127,13 @@ fn line(i: usize, row: &Row, count: usize) -> String {
     text
 }
 
-fn json(ledger: &Ledger, at: PathIndex, estimator: &str) -> serde_json::Value {
+/// Name of the medium of an event, if it has one.
+fn medium<'a>(row: &Row, frozen: &'a Frozen, scene: &Scene) -> Option<&'a str> {
+    let medium = scene.media.get(row.found?.medium as usize)?;
+    frozen.doc.media.get(medium.index).map(|medium| medium.name.as_str())
+}
+
+fn json(ledger: &Ledger, at: PathIndex, (frozen, scene): (&Frozen, &Scene)) -> serde_json::Value {
     let count = ledger.carried.count();
     let lanes = |values: &[f32; 4]| values[..count].to_vec();
     let ln = |products: &[majorant_core::inspect::Product; 4]| -> Vec<f64> {
@@ -139,6 +147,7 @@ fn json(ledger: &Ledger, at: PathIndex, estimator: &str) -> serde_json::Value {
                 "branch": row.branch.name(),
                 "event": row.step.to_string(),
                 "point": row.point.map(|p| p.to_array()),
+                "medium": medium(row, frozen, scene),
                 "u": row.numbers,
                 "ln_f": ln(&row.f),
                 "ln_p_uni": ln(&row.uni),
@@ -160,7 +169,7 @@ fn json(ledger: &Ledger, at: PathIndex, estimator: &str) -> serde_json::Value {
     serde_json::json!({
         "pixel": [at.x, at.y],
         "sample": at.sample,
-        "estimator": estimator,
+        "estimator": frozen.entry.id,
         "carried": carried(&ledger.carried),
         "film": ledger.film.to_array(),
         "sum": ledger.sum,

@@ -157,6 +157,12 @@ fn render(
     }
 }
 
+/// Names of the density grids of all media, as far as their files name them.
+fn density_grids(state: &ViewState) -> impl Iterator<Item = &str> {
+    let media = state.scene.iter().flat_map(|scene| scene.media.iter().flatten());
+    media.map(|medium| medium.density_grid.as_str()).filter(|name| !name.is_empty())
+}
+
 fn summary(snapshot: &Snapshot, doc: &SceneDoc, state: &ViewState) -> serde_json::Value {
     serde_json::json!({
         "estimator": doc.estimator.id,
@@ -172,7 +178,8 @@ fn summary(snapshot: &Snapshot, doc: &SceneDoc, state: &ViewState) -> serde_json
         "non_finite": snapshot.tally.non_finite,
         "threads": snapshot.threads,
         "seed": doc.render.seed,
-        "density_grid": state.scene.as_ref().map(|scene| &scene.density_grid).filter(|name| !name.is_empty()),
+        "density_grid": density_grids(state).next(),
+        "density_grids": density_grids(state).collect::<Vec<_>>(),
         "notices": state.notices,
         "ended_by": state.ending.map(Ending::id),
     })

@@ -34,6 +34,7 @@ impl LabApp {
             let saved = self.document.saved();
             let opened = saved.view_doc(self.wall.selected()).unwrap_or_else(|| saved.clone());
             let mut cx = Cx {
+                medium: self.medium.min(draft.media.len().saturating_sub(1)),
                 draft,
                 opened: &opened,
                 state: &self.state,
@@ -47,6 +48,9 @@ impl LabApp {
                 commands,
             };
             for panel in PANELS.iter().filter(|p| p.column() == column) {
+                if panel.is_of_medium() && cx.draft.media.is_empty() {
+                    continue;
+                }
                 let summary = panel.summary(&cx);
                 let header = Header {
                     id: panel.id(),

@@ -93,7 +93,9 @@ impl LabApp {
             Purpose::DensityFile => {
                 let file = self.short_name(&path);
                 let mut doc = self.doc().clone();
-                if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut doc.medium.density {
+                if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) =
+                    &mut doc.medium_at_mut(self.medium).density
+                {
                     *grid = GridRef { file, grid: None };
                 }
                 self.document.edit(doc);
@@ -101,7 +103,7 @@ impl LabApp {
             Purpose::TemperatureFile => {
                 let file = self.short_name(&path);
                 let mut doc = self.doc().clone();
-                if let Some(emission) = &mut doc.medium.emission {
+                if let Some(emission) = &mut doc.medium_at_mut(self.medium).emission {
                     emission.temperature = Some(GridRef { file, grid: None });
                 }
                 self.document.edit(doc);
@@ -109,7 +111,7 @@ impl LabApp {
             Purpose::PhaseTable => {
                 let name = self.short_name(&path);
                 let mut doc = self.doc().clone();
-                if let PhaseDoc::Tabulated { points, file, .. } = &mut doc.medium.phase {
+                if let PhaseDoc::Tabulated { points, file, .. } = &mut doc.medium_at_mut(self.medium).phase {
                     points.clear();
                     *file = name;
                 }
@@ -134,7 +136,7 @@ impl LabApp {
     /// Makes a readable volume the density of the medium.
     pub(super) fn fill_with(&mut self, path: &Path, look: &Look) {
         let doc = with_volume(self.doc(), self.short_name(path), look);
-        let scale = doc.medium.scale;
+        let scale = doc.medium().scale;
         self.document.edit(doc);
         let name = path.display();
         self.messages.say(

@@ -213,6 +213,7 @@ impl LabApp {
                 self.inspector.path.choose(pixel, sample);
                 self.apply(Command::ShowTab("path"));
             }
+            Command::SelectMedium(index) => self.medium = index,
             Command::ShowMajorants(slice) => self.settings.majorant_slice = slice,
             Command::ToggleMajorants => {
                 let shown = self.settings.majorant_slice.is_some();

@@ -52,6 +52,8 @@ use tasks::Tasks;
 pub struct LabApp {
     document: Document,
     settings: Settings,
+    /// Index of the medium that the panels show.
+    medium: usize,
     // Dropped before the session, which it polls.
     tone_mapper: ToneMapper,
     session: Arc<Session>,
@@ -135,6 +137,7 @@ impl LabApp {
             state: session.state(ViewId(0)),
             stats: Stats::default(),
             settings,
+            medium: 0,
             session,
             tone_mapper,
             wall,

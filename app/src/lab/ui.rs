@@ -140,6 +140,7 @@ impl LabApp {
         let area = ui.available_rect_before_wrap();
         self.over_wall = ui.input(|i| i.pointer.latest_pos()).is_some_and(|at| area.contains(at));
         self.wall.majorant_slice = self.settings.majorant_slice;
+        self.wall.medium = self.medium;
         let seen = self.wall.cells_ui(ui, doc, commands);
         (self.pixel, self.zoom) = (seen.pixel, seen.zoom);
         seen.camera

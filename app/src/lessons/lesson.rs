@@ -300,7 +300,7 @@ mod tests {
         assert_eq!((lesson.title.as_str(), lesson.steps.len()), ("T", 2));
         assert_eq!((lesson.steps[0].stage, lesson.steps[1].text.as_str()), (Stage::Predict, "This."));
         let [first, second] = [0, 1].map(|i| lesson.scene_at(i).unwrap());
-        assert!(first.title == second.title && first.medium.albedo != second.medium.albedo);
+        assert!(first.title == second.title && first.medium().albedo != second.medium().albedo);
         assert!(lesson.scene_at(2).is_none());
     }
 

@@ -82,6 +82,8 @@ pub enum Command {
     AnswerLesson(usize),
     /// Closes the open lesson and keeps its scene.
     CloseLesson,
+    /// Selects the medium that the panels of a medium show, by its index.
+    SelectMedium(usize),
     /// Draws a slice of the majorant's cells over the views, at this depth from 0 (near) to 1, or none.
     ShowMajorants(Option<f32>),
     /// Shows the middle slice of the majorant's cells, or hides the slice.

@@ -130,8 +130,8 @@ fn next_view(doc: &SceneDoc) -> ViewOverrides {
 
 /// Makes the settings of a contender those of view A.
 fn become_first(doc: &mut SceneDoc, first: ViewOverrides) {
+    doc.set_majorants(&first);
     doc.estimator = first.estimator;
-    doc.medium.majorant = first.majorant;
     doc.render.seed = first.seed;
     if let Some(camera) = first.camera {
         doc.camera = camera;

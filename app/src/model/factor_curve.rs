@@ -33,7 +33,9 @@ fn measure(resolved: SceneDoc, reply: &Reply<'_, SceneDoc, Measured>) {
 /// Returns the document reduced to everything that the curve depends on.
 fn subject(doc: &SceneDoc) -> SceneDoc {
     let mut doc = doc.clone();
-    doc.medium.majorant.factor = 1.0;
+    for medium in &mut doc.media {
+        medium.majorant.factor = 1.0;
+    }
     SceneDoc {
         title: String::new(),
         note: String::new(),
@@ -124,9 +126,9 @@ mod tests {
         curve.start(&doc, doc.clone(), || {});
         finish(&mut curve);
         assert_eq!(curve.points().len(), FACTORS.len());
-        doc.medium.majorant.factor = 2.0;
+        doc.medium_mut().majorant.factor = 2.0;
         assert!(curve.is_of(&doc) && curve.error().is_none());
-        doc.medium.scale = 2.0;
+        doc.medium_mut().scale = 2.0;
         assert!(!curve.is_of(&doc));
     }
 

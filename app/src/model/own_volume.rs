@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use majorant_core::io::volume::{ReadLimits, Volume, read_sparse_volume};
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc};
+use majorant_core::scene::{DensityDoc, GridRef, LightDoc, MediumDoc, PlacementDoc, SceneDoc, Within};
 use std::path::Path;
 
 /// Optical thickness of the thickest line through an opened volume, at the wavelength of the strongest
@@ -48,20 +48,23 @@ pub fn with_volume(doc: &SceneDoc, file: String, look: &Look) -> SceneDoc {
     doc.title = Path::new(&file).file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
     doc.note = String::new();
     let grid = GridRef { file, grid: None };
-    doc.medium = MediumDoc {
+    *doc.medium_mut() = MediumDoc {
         density: if look.channels == 3 { DensityDoc::RgbGrid(grid) } else { DensityDoc::Grid(grid) },
         placement: PlacementDoc { fit: Some(1.0), ..PlacementDoc::default() },
         albedo_grid: None,
-        ..doc.medium
+        enabled: true,
+        within: Within::Grid,
+        extent: None,
+        ..doc.medium().clone()
     };
     let strongest = match look.channels {
         3 => 1.0,
         // The extinction does not depend on the mean cosine.
-        _ => doc.medium.extinction_and_albedo(0.0).0.max_over_wavelengths(),
+        _ => doc.medium().extinction_and_albedo(0.0).0.max_over_wavelengths(),
     };
     let thickness = strongest * look.thickest;
     if thickness > 0.0 {
-        doc.medium.scale = two_digits(OPTICAL_THICKNESS / thickness).min(1e6);
+        doc.medium_mut().scale = two_digits(OPTICAL_THICKNESS / thickness).min(1e6);
     }
     move_about_origin(&mut doc);
     frame(&mut doc, look.edges);
@@ -134,9 +137,9 @@ mod tests {
             visible: true,
         }];
         let filled = with_volume(&doc, "a.vdb".into(), &LOOK);
-        assert_eq!(filled.medium.placement.fit, Some(1.0));
+        assert_eq!(filled.medium().placement.fit, Some(1.0));
         // Extinction 4, thickest line 0.3: 12 / 1.2.
-        assert!((filled.medium.scale - 10.0).abs() < 1e-3);
+        assert!((filled.medium().scale - 10.0).abs() < 1e-3);
         assert_eq!(filled.camera.target, [0.0; 3]);
         assert!(
             filled.camera.origin[0] == 0.0 && filled.camera.origin[2] > 1.0 && filled.camera.origin[2] < 10.0
@@ -165,9 +168,9 @@ mod tests {
     #[test]
     fn an_empty_volume_keeps_the_scale() {
         let empty = Look { thickest: 0.0, ..LOOK };
-        assert_eq!(with_volume(&SceneDoc::default(), "a.vdb".into(), &empty).medium.scale, 1.0);
+        assert_eq!(with_volume(&SceneDoc::default(), "a.vdb".into(), &empty).medium().scale, 1.0);
         let colour = Look { channels: 3, ..LOOK };
         let filled = with_volume(&SceneDoc::default(), "a.vol".into(), &colour);
-        assert!(matches!(filled.medium.density, DensityDoc::RgbGrid(_)));
+        assert!(matches!(filled.medium().density, DensityDoc::RgbGrid(_)));
     }
 }

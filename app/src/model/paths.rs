@@ -41,12 +41,12 @@ mod tests {
 
     fn with_volume(file: &str) -> SceneDoc {
         let mut doc = SceneDoc::default();
-        doc.medium.density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
+        doc.medium_mut().density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
         doc
     }
 
     fn volume(doc: &SceneDoc) -> &str {
-        doc.medium.density.grid().map_or("", |grid| grid.file.as_str())
+        doc.medium().density.grid().map_or("", |grid| grid.file.as_str())
     }
 
     #[test]

@@ -55,7 +55,7 @@ mod tests {
         assert_eq!(after(|d| d.render.seconds = Some(3.0)), Work::Limits);
         assert_eq!(after(|d| d.render.seed = 7), Work::Render);
         assert_eq!(after(|d| d.render.threads = Some(1)), Work::Render);
-        assert_eq!(after(|d| d.medium.majorant.factor = 2.0), Work::Render);
+        assert_eq!(after(|d| d.medium_mut().majorant.factor = 2.0), Work::Render);
         assert_eq!(after(|d| d.lights.clear()), Work::Render);
         assert_eq!(after(|d| d.camera.fov_deg = 20.0), Work::Render);
     }

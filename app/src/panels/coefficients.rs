@@ -9,7 +9,7 @@ use majorant_core::spectrum::{Quantity, SpectrumDoc};
 
 /// Chooses the parametrisation; the coefficients are converted.
 pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let mut kind = cx.draft.medium.coefficients_kind();
+    let mut kind = cx.draft.medium_at(cx.medium).coefficients_kind();
     let options = [
         (CoefficientsKind::ExtinctionAlbedo, "σt, albedo", "Extinction σt and its scattered fraction α"),
         (
@@ -26,18 +26,18 @@ pub(super) fn kind_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     ];
     if segmented(ui, "Coefficients", &mut kind, &options) {
         let mean_cosine = phase::current(cx).mean_cosine();
-        cx.draft.medium = cx.draft.medium.given_by(kind, mean_cosine);
+        *cx.draft.medium_at_mut(cx.medium) = cx.draft.medium_at(cx.medium).given_by(kind, mean_cosine);
     }
 }
 
 /// Shows the spectra of a medium that is not given by extinction and albedo; returns `false` for other media.
 pub(super) fn spectra_ui(ui: &mut Ui, cx: &mut Cx<'_>) -> bool {
-    if cx.draft.medium.coefficients.is_none() {
+    if cx.draft.medium_at(cx.medium).coefficients.is_none() {
         return false;
     }
     let mean_cosine = phase::current(cx).mean_cosine();
-    let Some(doc) = &mut cx.draft.medium.coefficients else { return false };
-    let opened = opened(&cx.opened.medium, doc, mean_cosine);
+    let Some(doc) = &mut cx.draft.medium_at_mut(cx.medium).coefficients else { return false };
+    let opened = opened(cx.opened.medium_at(cx.medium), doc, mean_cosine);
     match doc {
         CoefficientsDoc::AbsorptionScattering { absorption, scattering } => {
             edit(ui, key("medium.coefficients.absorption"), &opened[0], absorption);

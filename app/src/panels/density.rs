@@ -28,8 +28,11 @@ impl Panel for Density {
     fn column(&self) -> Column {
         Column::Scene
     }
+    fn is_of_medium(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        match cx.draft.medium.density.grid() {
+        match cx.draft.medium_at(cx.medium).density.grid() {
             None => "uniform cube".into(),
             Some(grid) => Path::new(&grid.file)
                 .file_name()
@@ -38,23 +41,29 @@ impl Panel for Density {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        Value::of(key("medium.scale"), &mut cx.draft.medium.scale)
-            .opened(cx.opened.medium.scale)
+        Value::of(key("medium.scale"), &mut cx.draft.medium_at_mut(cx.medium).scale)
+            .opened(cx.opened.medium_at(cx.medium).scale)
             .logarithmic()
             .named("Density scale")
             .show(ui);
         source_ui(ui, cx);
         storage_ui(ui, cx);
-        placement::placement_ui(ui, &mut cx.draft.medium.placement, &cx.opened.medium.placement);
+        placement::placement_ui(
+            ui,
+            &mut cx.draft.medium_at_mut(cx.medium).placement,
+            &cx.opened.medium_at(cx.medium).placement,
+        );
     }
 }
 
 /// Storage and interpolation of grids, and the resulting memory and error.
 fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    if cx.draft.medium.density.grid().is_none() && cx.draft.medium.albedo_grid.is_none() {
+    if cx.draft.medium_at(cx.medium).density.grid().is_none()
+        && cx.draft.medium_at(cx.medium).albedo_grid.is_none()
+    {
         return;
     }
-    let medium = &mut cx.draft.medium;
+    let medium = cx.draft.medium_at_mut(cx.medium);
     row_of(ui, key("medium.precision"), |ui, _| {
         let options = [
             (Precision::F32, "32", "Single precision"),
@@ -74,7 +83,7 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         ];
         segmented(ui, "Interpolation", &mut medium.interpolation, &options);
     });
-    let Some(info) = cx.state.scene.as_ref() else { return };
+    let Some(info) = cx.medium_info() else { return };
     if let Some([x, y, z]) = info.grid_size {
         let megabytes = info.memory_bytes as f64 / 1e6;
         let occupied = 100.0 * info.occupied_voxels as f64 / (x * y * z) as f64;
@@ -94,7 +103,7 @@ fn storage_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
 }
 
 fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let density = &mut cx.draft.medium.density;
+    let density = &mut cx.draft.medium_at_mut(cx.medium).density;
     let mut kind = match density {
         DensityDoc::Uniform {} => Kind::Uniform,
         DensityDoc::Grid(_) => Kind::Grid,
@@ -119,9 +128,10 @@ fn source_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             };
         }
     });
-    let Cx { draft, grids, commands, state, .. } = cx;
-    if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut draft.medium.density {
-        let chosen = state.scene.as_ref().map(|info| info.density_grid.as_str());
+    let Cx { draft, grids, commands, state, medium, .. } = cx;
+    if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut draft.medium_at_mut(*medium).density {
+        let chosen =
+            state.scene.as_ref().and_then(|info| info.medium(*medium)).map(|info| info.density_grid.as_str());
         grid_ui(ui, ("density", chosen), grid, grids, commands, Purpose::DensityFile);
     } else {
         hint(ui, "Drop a .vdb, .npy or .vol file anywhere in the window to use it as density.");

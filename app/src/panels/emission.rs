@@ -19,8 +19,11 @@ impl Panel for Emission {
     fn column(&self) -> Column {
         Column::Scene
     }
+    fn is_of_medium(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        match &cx.draft.medium.emission {
+        match &cx.draft.medium_at(cx.medium).emission {
             None => "none".into(),
             Some(EmissionDoc { temperature: None, kelvin, .. }) => {
                 format!("{} K", format_number(f64::from(*kelvin)))
@@ -32,8 +35,8 @@ impl Panel for Emission {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let Cx { draft, opened, grids, commands, state, .. } = cx;
-        let mut emits = draft.medium.emission.is_some();
+        let Cx { draft, opened, grids, commands, state, medium: medium_index, .. } = cx;
+        let mut emits = draft.medium_at(*medium_index).emission.is_some();
         switch(
             ui,
             "Thermal",
@@ -43,12 +46,12 @@ impl Panel for Emission {
             "Thermal emission at the temperature of the medium; requires absorption",
         );
         if !emits {
-            draft.medium.emission = None;
+            draft.medium_at_mut(*medium_index).emission = None;
             return;
         }
-        let initial = opened.medium.emission.clone().unwrap_or_default();
-        let density = draft.medium.density.clone();
-        let emission = draft.medium.emission.get_or_insert_with(|| initial.clone());
+        let initial = opened.medium_at(*medium_index).emission.clone().unwrap_or_default();
+        let density = draft.medium_at(*medium_index).density.clone();
+        let emission = draft.medium_at_mut(*medium_index).emission.get_or_insert_with(|| initial.clone());
         let mut by_grid = emission.temperature.is_some();
         row(ui, "Temperature", "Source of the temperature", |ui, _| {
             let options = [
@@ -65,7 +68,11 @@ impl Panel for Emission {
                 }
                 DensityDoc::Uniform {} => GridRef::default(),
             });
-            let chosen = state.scene.as_ref().map(|info| info.temperature_grid.as_str());
+            let chosen = state
+                .scene
+                .as_ref()
+                .and_then(|info| info.medium(*medium_index))
+                .map(|info| info.temperature_grid.as_str());
             density::grid_ui(ui, ("temperature", chosen), grid, grids, commands, Purpose::TemperatureFile);
         } else {
             emission.temperature = None;

@@ -32,9 +32,12 @@ impl Panel for Extinction {
     fn starts_open(&self) -> bool {
         true
     }
+    fn is_of_medium(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        match &cx.draft.medium.coefficients {
-            None => in_words(&cx.draft.medium.extinction),
+        match &cx.draft.medium_at(cx.medium).coefficients {
+            None => in_words(&cx.draft.medium_at(cx.medium).extinction),
             Some(CoefficientsDoc::AbsorptionScattering { absorption, scattering }) => {
                 format!("σa {}, σs {}", in_words(absorption), in_words(scattering))
             }
@@ -46,17 +49,17 @@ impl Panel for Extinction {
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
         coefficients::kind_ui(ui, cx);
-        if matches!(cx.draft.medium.density, DensityDoc::RgbGrid(_)) {
+        if matches!(cx.draft.medium_at(cx.medium).density, DensityDoc::RgbGrid(_)) {
             hint(ui, "The RGB grid contains the extinction; this spectrum is not used.");
         }
         if coefficients::spectra_ui(ui, cx) {
             return;
         }
-        let medium = &mut cx.draft.medium;
+        let medium = cx.draft.medium_at_mut(cx.medium);
         let field = SpectrumField {
             name: "Extinction",
             key: key("medium.extinction"),
-            opened: &cx.opened.medium.extinction,
+            opened: &cx.opened.medium_at(cx.medium).extinction,
             quantity: Quantity::Coefficient,
             majorant: Some(&medium.majorant),
         };

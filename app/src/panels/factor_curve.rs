@@ -63,7 +63,7 @@ pub(super) fn factor_curve_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
             hint(ui, NOTHING);
             return;
         }
-        let factor = cx.draft.medium.majorant.factor;
+        let factor = cx.draft.medium_at(cx.medium).majorant.factor;
         relative_ui(ui, points, one, factor);
         bias_ui(ui, points, factor);
     });

@@ -24,12 +24,15 @@ const FOILS: [Foil; 2] = [
         name: "Clamped majorant",
         summary: "Half the largest extinction as majorant, with extinction clamped to it: the medium is too thin.",
         is_on: |doc| {
-            doc.medium.majorant.factor < 1.0 && doc.medium.majorant.when_exceeded == WhenExceeded::Clamp
+            doc.enabled_media()
+                .map(|medium| &medium.majorant)
+                .any(|majorant| majorant.factor < 1.0 && majorant.when_exceeded == WhenExceeded::Clamp)
         },
         set: |doc, on| {
-            let majorant = &mut doc.medium.majorant;
-            (majorant.factor, majorant.when_exceeded) =
-                if on { (0.5, WhenExceeded::Clamp) } else { (1.0, WhenExceeded::Weighted) };
+            for medium in &mut doc.media {
+                (medium.majorant.factor, medium.majorant.when_exceeded) =
+                    if on { (0.5, WhenExceeded::Clamp) } else { (1.0, WhenExceeded::Weighted) };
+            }
         },
     },
     Foil {
@@ -154,7 +157,7 @@ mod tests {
             let mut doc = SceneDoc::default();
             // Ray marching is exact in constant extinction.
             let cloud = GridRef { file: "embedded:cloud.vdb".into(), grid: None };
-            doc.medium.density = DensityDoc::Grid(cloud);
+            doc.medium_mut().density = DensityDoc::Grid(cloud);
             plant(&mut doc, name);
             assert_eq!(planted(&doc), Some(name));
             let entry = majorant_core::estimator::find(&doc.estimator.id).unwrap();

@@ -26,35 +26,38 @@ impl Panel for Majorant {
     fn starts_open(&self) -> bool {
         true
     }
+    fn is_of_medium(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        let majorant = &cx.draft.medium.majorant;
+        let majorant = &cx.draft.medium_at(cx.medium).majorant;
         let shared = if majorant.shared { ", shared" } else { "" };
-        let cells =
-            majorant.resolution.or(cx.state.scene.as_ref().and_then(|i| i.majorant_cells).map(|n| n as u32));
+        let cells = majorant.resolution.or(cx.medium_info().and_then(|i| i.majorant_cells).map(|n| n as u32));
         let cells = cells.map_or_else(String::new, |n| format!(", {n}³"));
         format!("{} × max σt{cells}{shared}", format_number(f64::from(majorant.factor)))
     }
     fn alert(&self, cx: &Cx<'_>, palette: &Palette) -> Option<Color32> {
-        verdict(&cx.draft.medium.majorant, palette).map(|(colour, _, _)| colour)
+        verdict(&cx.draft.medium_at(cx.medium).majorant, palette).map(|(colour, _, _)| colour)
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        let majorant = &mut cx.draft.medium.majorant;
+        let cells = cx.medium_info().and_then(|info| info.majorant_cells);
+        let majorant = &mut cx.draft.medium_at_mut(cx.medium).majorant;
         Value::of(key("medium.majorant.factor"), &mut majorant.factor)
-            .opened(cx.opened.medium.majorant.factor)
+            .opened(cx.opened.medium_at(cx.medium).majorant.factor)
             .within(0.1..=16.0)
             .logarithmic()
             .named("Majorant factor")
             .show(ui);
-        let cells = cx.state.scene.as_ref().and_then(|info| info.majorant_cells);
         let automatic = cells.map_or_else(|| "automatic".into(), |n| format!("automatic: {n}³"));
-        let (resolution, opened) = (&mut majorant.resolution, cx.opened.medium.majorant.resolution);
+        let (resolution, opened) =
+            (&mut majorant.resolution, cx.opened.medium_at(cx.medium).majorant.resolution);
         let initial = cells.unwrap_or(16) as u32;
         let resolution = (resolution, opened);
         optional_key(ui, key("medium.majorant.resolution"), resolution, initial, &automatic, |v| {
             v.logarithmic()
         });
-        if let Some(info) = cx.state.scene.as_ref() {
+        if let Some(info) = cx.medium_info() {
             tightness_ui(ui, info.tightness);
         }
         if let Some(lookups) = cx.stats.lookups_per_path {
@@ -76,7 +79,7 @@ impl Panel for Majorant {
                 );
             });
         }
-        if let Some(violations) = cx.state.probe.as_ref().map(|probe| probe.violations()) {
+        if let Some(violations) = cx.state.probe.as_ref().and_then(|probe| probe.violations(cx.medium)) {
             let count = violations.exceeded_cells();
             if count > 0 {
                 let tip = "Cells in which a flight has found σt > μ since μ was set or raised. M shows them";
@@ -90,7 +93,7 @@ impl Panel for Majorant {
             }
         }
         slice_ui(ui, cx.settings.majorant_slice, cells.is_some(), cx.commands);
-        let majorant = &mut cx.draft.medium.majorant;
+        let majorant = &mut cx.draft.medium_at_mut(cx.medium).majorant;
         let shared = key("medium.majorant.shared");
         switch(ui, shared.label, "Shared majorant", &mut majorant.shared, "by all wavelengths", shared.tip);
         row_of(ui, key("medium.majorant.when_exceeded"), |ui, _| {

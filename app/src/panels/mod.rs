@@ -17,6 +17,7 @@ pub mod faults;
 mod light_fields;
 mod lights;
 mod majorant;
+mod media;
 mod objects;
 mod phase;
 mod phase_table;
@@ -28,13 +29,15 @@ use crate::model::Settings;
 use crate::model::{Command, FactorCurve, GridLists, Latency, Stats};
 use crate::theme::Palette;
 use egui::{Color32, Ui};
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{MediumInfo, SceneDoc};
 use majorant_core::session::ViewState;
 
 /// Context of a panel: read-only state, and the draft and commands that receive its edits.
 pub struct Cx<'a> {
     /// Document to edit; it is compared and applied after the frame.
     pub draft: &'a mut SceneDoc,
+    /// Index of the medium that the panels of a medium show.
+    pub medium: usize,
     /// Document as opened or last saved.
     pub opened: &'a SceneDoc,
     /// Session state of the selected view.
@@ -55,6 +58,14 @@ pub struct Cx<'a> {
     pub grids: &'a GridLists,
     /// Receives all commands that are not edits of the document.
     pub commands: &'a mut Vec<Command>,
+}
+
+impl<'a> Cx<'a> {
+    /// Statistics of the selected medium; `None` until the scene is built, or if the medium is disabled.
+    #[must_use]
+    pub fn medium_info(&self) -> Option<&'a MediumInfo> {
+        self.state.scene.as_ref()?.medium(self.medium)
+    }
 }
 
 /// Column of a panel.
@@ -78,6 +89,10 @@ pub trait Panel: Sync {
     fn starts_open(&self) -> bool {
         false
     }
+    /// Whether the section shows a medium, so that it is absent in a scene without media.
+    fn is_of_medium(&self) -> bool {
+        false
+    }
     /// Short summary of the content, at the right end of the header.
     fn summary(&self, cx: &Cx<'_>) -> String;
     /// Colour of a warning dot in the header, if any.
@@ -91,6 +106,7 @@ pub trait Panel: Sync {
 /// All panels, from top to bottom of their columns.
 pub const PANELS: &[&dyn Panel] = &[
     &scene::Scene,
+    &media::Media,
     &density::Density,
     &extinction::Extinction,
     &albedo::Albedo,

@@ -23,8 +23,11 @@ impl Panel for PhaseFunction {
     fn column(&self) -> Column {
         Column::Scene
     }
+    fn is_of_medium(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
-        let phase = &cx.draft.medium.phase;
+        let phase = &cx.draft.medium_at(cx.medium).phase;
         let number = |(p, v): (&Parameter, f32)| match p.unit {
             "" => format_number(v.into()),
             unit => format!("{} {unit}", format_number(v.into())),
@@ -38,9 +41,13 @@ impl Panel for PhaseFunction {
     }
 
     fn ui(&self, ui: &mut Ui, cx: &mut Cx<'_>) {
-        kind_ui(ui, &mut cx.draft.medium.phase);
-        parameters_ui(ui, &mut cx.draft.medium.phase, &cx.opened.medium.phase);
-        if matches!(cx.draft.medium.phase, PhaseDoc::Tabulated { .. }) {
+        kind_ui(ui, &mut cx.draft.medium_at_mut(cx.medium).phase);
+        parameters_ui(
+            ui,
+            &mut cx.draft.medium_at_mut(cx.medium).phase,
+            &cx.opened.medium_at(cx.medium).phase,
+        );
+        if matches!(cx.draft.medium_at(cx.medium).phase, PhaseDoc::Tabulated { .. }) {
             phase_table::table_ui(ui, cx);
         }
         phase_lobe(ui, &current(cx), cx.settings.log_lobe);
@@ -59,7 +66,7 @@ impl Panel for PhaseFunction {
 
 /// Phase function as edited; points of a table file are taken from the session.
 pub(super) fn current(cx: &Cx<'_>) -> Phase {
-    match (&cx.draft.medium.phase, cx.state.scene.as_ref()) {
+    match (&cx.draft.medium_at(cx.medium).phase, cx.medium_info()) {
         (PhaseDoc::Tabulated { angle, file, .. }, Some(info)) if !file.is_empty() => {
             let points = info.phase_points.clone();
             Phase::new(&PhaseDoc::Tabulated { angle: *angle, points, file: String::new() })

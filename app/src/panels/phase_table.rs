@@ -14,7 +14,10 @@ const SHOWN: usize = 200;
 
 /// Shows the table of a tabulated phase function.
 pub(super) fn table_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
-    let PhaseDoc::Tabulated { angle, points, file } = &mut cx.draft.medium.phase else { return };
+    let read = cx.medium_info().map(|info| info.phase_points.as_slice()).unwrap_or_default();
+    let PhaseDoc::Tabulated { angle, points, file } = &mut cx.draft.medium_at_mut(cx.medium).phase else {
+        return;
+    };
     row(ui, "First column", "Meaning of the first number of each point", |ui, _| {
         let options = [
             (Angle::Cosine, "cos θ", "−1 is backward, 1 forward"),
@@ -36,7 +39,6 @@ pub(super) fn table_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         }
         *file = named;
     }
-    let read = cx.state.scene.as_ref().map(|info| info.phase_points.as_slice()).unwrap_or_default();
     if !file.is_empty() {
         hint(ui, &format!("{} points, interpolated linearly in cos θ.", read.len()));
         if !read.is_empty() && ui.button("Copy the points into the scene").clicked() {

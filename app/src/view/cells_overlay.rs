@@ -8,16 +8,25 @@
 use super::image_view::ImageView;
 use crate::theme::Palette;
 use egui::{Align2, Color32, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextStyle, Ui, Vec2, pos2, vec2};
-use glam::Vec3;
+use glam::{Affine3A, Vec3};
 use majorant_core::medium::MajorantCells;
-use majorant_core::scene::{Camera, Scene};
+use majorant_core::scene::Camera;
 use majorant_core::session::Probe;
 
 /// Maximum resolution at which lines are drawn between cells.
 const MOST_LINED: usize = 32;
 const ALPHA: f32 = 0.45;
 
-/// Draws the slice at `depth` (0 nearest, 1 farthest) and its legend.
+/// Slice of the majorant grid of a medium.
+#[derive(Clone, Copy, Debug)]
+pub struct Slice {
+    /// Index of the medium in the document.
+    pub medium: usize,
+    /// Depth from 0 (nearest) to 1 (farthest).
+    pub depth: f32,
+}
+
+/// Draws a slice and its legend.
 pub fn paint(
     ui: &Ui,
     canvas: Rect,
@@ -25,13 +34,15 @@ pub fn paint(
     image: Vec2,
     probe: &Probe,
     camera: &Camera,
-    depth: f32,
+    slice: Slice,
 ) {
-    let scene = probe.scene();
-    let Some(cells) = scene.medium.majorant_cells() else { return };
+    let Some(medium) = probe.scene().medium_of_document(slice.medium) else { return };
+    let Some(cells) = medium.placed.medium.majorant_cells() else { return };
+    let Some(violations) = probe.violations(slice.medium) else { return };
+    let world_from_medium = medium.medium_from_world().inverse();
     let painter = ui.painter_at(canvas);
-    let slice = Slice::facing(scene, camera, &cells, depth);
-    let corners = slice.corners(scene, camera, |at| view.screen_from_image(canvas, image, at));
+    let slice = Layer::facing(&world_from_medium, camera, &cells, slice.depth);
+    let corners = slice.corners(&world_from_medium, camera, |at| view.screen_from_image(canvas, image, at));
     let n = cells.cells();
     let mut mesh = Mesh::default();
     let mut lines = Vec::new();
@@ -46,7 +57,7 @@ pub fn paint(
         let cell = slice.cell(i, j);
         let Some(tightness) = cells.tightness(cell) else { continue };
         let first = mesh.vertices.len() as u32;
-        let excess = probe.violations().largest(cell);
+        let excess = violations.largest(cell);
         violated |= excess > 1.0;
         let colour = if excess > 1.0 { violation(excess) } else { colour(tightness).gamma_multiply(ALPHA) };
         for corner in [a, b, c, d] {
@@ -67,15 +78,14 @@ pub fn paint(
 }
 
 /// One layer of majorant cells, perpendicular to an axis.
-struct Slice {
+struct Layer {
     axis: usize,
     layer: usize,
     cells: usize,
 }
 
-impl Slice {
-    fn facing(scene: &Scene, camera: &Camera, cells: &MajorantCells<'_>, depth: f32) -> Self {
-        let world_from_medium = scene.medium_from_world.inverse();
+impl Layer {
+    fn facing(world_from_medium: &Affine3A, camera: &Camera, cells: &MajorantCells<'_>, depth: f32) -> Self {
         let middle = world_from_medium.transform_point3(Vec3::splat(0.5));
         let toward = (middle - camera.origin()).normalize_or(Vec3::Z);
         let along = |axis: usize| {
@@ -98,8 +108,12 @@ impl Slice {
     }
 
     /// Screen positions of the cell corners in the middle of the layer; `None` behind the camera.
-    fn corners(&self, scene: &Scene, camera: &Camera, screen: impl Fn(Pos2) -> Pos2) -> Vec<Option<Pos2>> {
-        let world_from_medium = scene.medium_from_world.inverse();
+    fn corners(
+        &self,
+        world_from_medium: &Affine3A,
+        camera: &Camera,
+        screen: impl Fn(Pos2) -> Pos2,
+    ) -> Vec<Option<Pos2>> {
         let n = self.cells as f32;
         let middle = (self.layer as f32 + 0.5) / n;
         let side = 0..=self.cells;
@@ -142,7 +156,7 @@ fn violation_legend(ui: &Ui, painter: &Painter, canvas: Rect) {
 }
 
 /// Legend of the tightness scale, in the lower left corner.
-fn legend(ui: &Ui, painter: &Painter, canvas: Rect, slice: &Slice, cells: usize) {
+fn legend(ui: &Ui, painter: &Painter, canvas: Rect, slice: &Layer, cells: usize) {
     let palette = Palette::get(ui);
     let font = TextStyle::Small.resolve(ui.style());
     let size = vec2(236.0, 44.0).min(canvas.size() - Vec2::splat(16.0));

@@ -8,7 +8,7 @@ use crate::model::WallEdit;
 use crate::model::{Arrangement, Pair, WindowDoc};
 use crate::theme::Palette;
 use crate::view::canvas::{Outcome, Shown, canvas_ui};
-use crate::view::cells_overlay;
+use crate::view::cells_overlay::{self, Slice};
 use crate::view::tone_mapper::PictureId;
 use crate::widgets::badge;
 use egui::{
@@ -175,7 +175,8 @@ impl Wall {
             (self.majorant_slice, self.slots().get(view).and_then(|s| s.state.probe.as_ref()), picture)
         {
             let eye = Camera::new(&camera, doc.film.width, doc.film.height);
-            cells_overlay::paint(&child, rect, outcome.view, film, probe, &eye, depth);
+            let slice = Slice { medium: self.medium, depth };
+            cells_overlay::paint(&child, rect, outcome.view, film, probe, &eye, slice);
         }
         outcome
     }

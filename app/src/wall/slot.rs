@@ -4,7 +4,7 @@ use crate::model::Stats;
 use crate::model::{Work, work_after};
 use majorant_core::compare::curve::Checkpoints;
 use majorant_core::film::Snapshot;
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{MediumDoc, SceneDoc};
 use majorant_core::session::{Job, Probe, Role, Session, Status, ViewId, ViewState};
 use std::sync::Arc;
 
@@ -132,8 +132,11 @@ impl Slot {
 
 /// Whether scene information and notices of one document describe the other: they depend on the files read.
 fn same_files(a: &SceneDoc, b: &SceneDoc) -> bool {
-    a.medium.density == b.medium.density
-        && a.medium.phase == b.medium.phase
+    let of_medium = |(a, b): (&MediumDoc, &MediumDoc)| {
+        a.enabled == b.enabled && a.density == b.density && a.phase == b.phase
+    };
+    a.media.len() == b.media.len()
+        && a.media.iter().zip(&b.media).all(of_medium)
         && a.lights.len() == b.lights.len()
 }
 

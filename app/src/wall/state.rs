@@ -62,6 +62,8 @@ pub struct Wall {
     pub picked: Option<[usize; 2]>,
     /// Depth of the majorant slice drawn over the views, from 0 to 1; `None` for no slice.
     pub majorant_slice: Option<f32>,
+    /// Index of the medium whose cells the slice shows.
+    pub medium: usize,
 }
 
 /// Inputs of an analysis.
@@ -108,6 +110,7 @@ impl Wall {
             tool: Tool::Camera,
             picked: None,
             majorant_slice: None,
+            medium: 0,
         })
     }
 

@@ -54,7 +54,9 @@ pub fn factor_curve(
     let Some(entry) = estimator::find(&case.doc.estimator.id) else { return Ok(Some(())) };
     let mut picture = |factor: f32, seed: u64, paths: u64, reference: bool| {
         let mut doc = if reference { case.doc.unbiased() } else { case.doc.clone() };
-        doc.medium.majorant.factor = factor;
+        for medium in &mut doc.media {
+            medium.majorant.factor = factor;
+        }
         let scene = build(&doc, &mut library)
             .map_err(|source| CheckError::Build { name: name.to_owned(), source })?;
         let settings = Settings::new(&doc.estimator, doc.render.seed.wrapping_add(seed));

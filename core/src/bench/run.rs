@@ -287,8 +287,8 @@ mod tests {
         doc.estimator.fault = Fault::PhaseInBoth;
         doc.estimator.bookkeeping = Bookkeeping::ApartF32;
         doc.estimator.transmittance = "marching".into();
-        doc.medium.majorant.when_exceeded = WhenExceeded::Clamp;
-        doc.medium.majorant.factor = 0.5;
+        doc.medium_mut().majorant.when_exceeded = WhenExceeded::Clamp;
+        doc.medium_mut().majorant.factor = 0.5;
         assert_eq!(reference_doc(&doc, entry), plain);
         assert_eq!(unfit_document(&plain), None);
     }

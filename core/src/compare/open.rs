@@ -201,7 +201,7 @@ mod tests {
         assert!(mode.contains("`estimator.mode` is rgb there and spectral here"), "{mode}");
         assert!(mode.contains("majorant render"), "{mode}");
         assert!(refused(|d| d.estimator.max_depth = Some(2)).contains("unlimited there and 2 here"));
-        assert!(refused(|d| d.medium.scale = 2.0).contains("these differ: medium"));
+        assert!(refused(|d| d.medium_mut().scale = 2.0).contains("these differ: medium"));
         let size = refused(|d| d.film.width = 25);
         assert!(size.contains("24 × 16") && size.contains("25 × 16"), "{size}");
         assert!(opened("nowhere.exr", &doc).0.unwrap_err().to_string().contains("nowhere.exr"));

@@ -135,8 +135,8 @@ fn noise_of_the_cost_widens_the_interval() {
 #[test]
 fn a_biased_view_is_excluded_from_pools_and_detected() {
     let mut clamped = doc(2);
-    clamped.medium.majorant.factor = 0.5;
-    clamped.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+    clamped.medium_mut().majorant.factor = 0.5;
+    clamped.medium_mut().majorant.when_exceeded = WhenExceeded::Clamp;
     let views = [(doc(0), picture(1, 4, 0.0)), (doc(1), picture(2, 4, 0.0)), (clamped, picture(3, 4, 0.1))];
     let standings = ranked(&views, &question());
     let verdicts: Vec<Verdict> = standings.iter().map(Standing::verdict).collect();
@@ -188,7 +188,7 @@ fn only_sound_pictures_are_pooled() {
     assert_eq!(
         against(|d, _| {
             d.estimator.id = "mitsuba2-volpath".into();
-            d.medium.extinction = crate::spectrum::SpectrumDoc::Rgb([1.0, 2.0, 3.0]);
+            d.medium_mut().extinction = crate::spectrum::SpectrumDoc::Rgb([1.0, 2.0, 3.0]);
         }),
         ComparedWith::Others("C".into())
     );
@@ -199,8 +199,8 @@ fn only_sound_pictures_are_pooled() {
 fn a_biased_reference_gives_no_verdict() {
     let views = |when_exceeded| {
         let mut biased = doc(2);
-        biased.medium.majorant.factor = 0.5;
-        biased.medium.majorant.when_exceeded = when_exceeded;
+        biased.medium_mut().majorant.factor = 0.5;
+        biased.medium_mut().majorant.when_exceeded = when_exceeded;
         vec![(doc(1), picture(1, 1, 0.0)), (biased, picture(2, 1, 0.3))]
     };
     let verdict = |when_exceeded| {

@@ -367,7 +367,7 @@ mod tests {
         });
         assert!(endless.contains("compare.reference"), "{endless}");
         let glowing = refused(|d| {
-            d.medium.emission = Some(crate::scene::EmissionDoc::default());
+            d.medium_mut().emission = Some(crate::scene::EmissionDoc::default());
             d.compare.reference = ReferenceDoc::Render {
                 estimator: "mitsuba2-volpath".into(),
                 spp: Some(8),
@@ -377,7 +377,7 @@ mod tests {
         assert!(glowing.contains("mitsuba2-volpath") && glowing.contains("light from within"), "{glowing}");
         let file = "no-such-volume.vdb";
         let unread = refused(|d| {
-            d.medium.density = crate::scene::DensityDoc::Grid(crate::scene::GridRef {
+            d.medium_mut().density = crate::scene::DensityDoc::Grid(crate::scene::GridRef {
                 file: "no-such-volume.vdb".into(),
                 grid: None,
             })

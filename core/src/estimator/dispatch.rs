@@ -1,11 +1,12 @@
 //! Dispatch from a registry entry to a monomorphic path.
 //!
 //! Mode and medium are matched once per path; the code below is one specialised function per
-//! estimator × mode × medium.
+//! estimator × mode × medium. A single homogeneous medium or density grid has a function of its own; RGB grids
+//! and several media share one, in which the kind of a medium is matched per segment and per look-up.
 
 use super::{AxisSet, Estimator};
 use crate::math::{Sampler, SamplerKind};
-use crate::medium::{AnyMedium, Medium, SharedMajorant};
+use crate::medium::{AnyMedium, LocalMedia, Medium, One, PlacedMedium, Several, SharedMajorant};
 use crate::scene::{EstimatorDoc, Heuristic, Mode, Scene};
 use crate::spectrum::{Components, Grey, Radiance, RgbChannels, WavelengthSampling, Wavelengths};
 use crate::transmittance::TransmittanceKind;
@@ -121,29 +122,84 @@ fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     at: PathIndex,
     context: PathContext<'_>,
 ) -> PathEstimate {
-    match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, C, N>(m, scene, s, at, context),
-        AnyMedium::DensityGrid(m) => path::<E, _, C, N>(m, scene, s, at, context),
-        AnyMedium::RgbGrids(m) => path::<E, _, C, N>(m, scene, s, at, context),
+    match only_medium(scene) {
+        Some((AnyMedium::Homogeneous(m), placed)) => path::<E, _, C, N>((m, placed), scene, s, at, context),
+        Some((AnyMedium::DensityGrid(m), placed)) => path::<E, _, C, N>((m, placed), scene, s, at, context),
+        Some((AnyMedium::RgbGrids(_), _)) | None => path::<E, _, C, N>(Every(scene), scene, s, at, context),
     }
 }
 
-/// As [`in_medium`], without a kernel for RGB grids, which are never achromatic.
+/// As [`in_medium`], without a kernel for several media and for RGB grids, which are never achromatic.
 fn in_grey_medium<E: Estimator>(
     scene: &Scene,
     s: &Settings,
     at: PathIndex,
     context: PathContext<'_>,
 ) -> PathEstimate {
-    match &scene.medium {
-        AnyMedium::Homogeneous(m) => path::<E, _, Grey, 1>(m, scene, s, at, context),
-        AnyMedium::DensityGrid(m) => path::<E, _, Grey, 1>(m, scene, s, at, context),
-        AnyMedium::RgbGrids(_) => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
+    match only_medium(scene) {
+        Some((AnyMedium::Homogeneous(m), placed)) => {
+            path::<E, _, Grey, 1>((m, placed), scene, s, at, context)
+        }
+        Some((AnyMedium::DensityGrid(m), placed)) => {
+            path::<E, _, Grey, 1>((m, placed), scene, s, at, context)
+        }
+        Some((AnyMedium::RgbGrids(_), _)) | None => match s.mode {
+            Mode::Spectral => in_medium::<E, Wavelengths<4>, 4>(scene, s, at, context),
+            Mode::Rgb => in_medium::<E, RgbChannels<3>, 3>(scene, s, at, context),
+        },
     }
 }
 
-fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
-    medium: &M,
+/// The medium of a scene that has only one.
+fn only_medium(scene: &Scene) -> Option<(&AnyMedium, &PlacedMedium)> {
+    match &*scene.media {
+        [only] => Some((&only.placed.medium, &only.placed)),
+        _ => None,
+    }
+}
+
+/// Media that are evaluated at the components of a path.
+trait Media<'s> {
+    /// The media at `N` components.
+    type Local<const N: usize>: LocalMedia<N>;
+    /// The same media, with one majorant for all components.
+    type LocalShared<const N: usize>: LocalMedia<N>;
+
+    fn local<const N: usize, C: Components<N>>(self, components: &C) -> Self::Local<N>;
+    fn local_shared<const N: usize, C: Components<N>>(self, components: &C) -> Self::LocalShared<N>;
+}
+
+impl<'s, M: Medium> Media<'s> for (&'s M, &'s PlacedMedium) {
+    type Local<const N: usize> = One<'s, M::Local<'s, N>>;
+    type LocalShared<const N: usize> = One<'s, SharedMajorant<M::Local<'s, N>>>;
+
+    fn local<const N: usize, C: Components<N>>(self, components: &C) -> Self::Local<N> {
+        One { medium: self.0.local(components), placed: self.1 }
+    }
+
+    fn local_shared<const N: usize, C: Components<N>>(self, components: &C) -> Self::LocalShared<N> {
+        One { medium: SharedMajorant(self.0.local(components)), placed: self.1 }
+    }
+}
+
+/// All media of a scene, of any kind.
+struct Every<'s>(&'s Scene);
+
+impl<'s> Media<'s> for Every<'s> {
+    type Local<const N: usize> = Several<'s, N>;
+    type LocalShared<const N: usize> = Several<'s, N>;
+
+    fn local<const N: usize, C: Components<N>>(self, components: &C) -> Several<'s, N> {
+        Several::new(self.0.media.iter().map(|medium| &medium.placed), components, false)
+    }
+
+    fn local_shared<const N: usize, C: Components<N>>(self, components: &C) -> Several<'s, N> {
+        Several::new(self.0.media.iter().map(|medium| &medium.placed), components, true)
+    }
+}
+
+fn path<'s, E: Estimator, M: Media<'s>, C: Components<N>, const N: usize>(
+    media: M,
     scene: &Scene,
     settings: &Settings,
     at: PathIndex,
@@ -156,12 +212,13 @@ fn path<E: Estimator, M: Medium, C: Components<N>, const N: usize>(
     let wavelengths = (settings.mode == Mode::Spectral).then_some(settings.wavelengths);
     let components = C::sample(u, wavelengths);
     trace.notify(move || Note::Camera { ray, jitter, u, carried: components.carried() });
-    let (medium, settings) = (medium.local(&components), settings.path);
+    let settings = settings.path;
     let radiance = if const { E::SHARED_MAJORANT } {
-        let medium = SharedMajorant(medium);
-        E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
+        let media = media.local_shared(&components);
+        E::estimate(&World { scene, media, components, settings }, ray, &mut trace)
     } else {
-        E::estimate(&World { scene, medium, components, settings }, ray, &mut trace)
+        let media = media.local(&components);
+        E::estimate(&World { scene, media, components, settings }, ray, &mut trace)
     };
     let rgb = components.to_film(radiance);
     trace.notify(move || Note::End { sum: radiance.lanes(), film: rgb });

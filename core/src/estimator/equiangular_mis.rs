@@ -21,7 +21,7 @@
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::{Ray, SideStream};
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transport::{
     EquiangularWeights, FlightEnd, LightDensities, Note, Passage, Reached, Technique, Trace, WalkWeights,
@@ -47,8 +47,8 @@ pub(super) struct EquiangularMis;
 impl Estimator for EquiangularMis {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -62,7 +62,7 @@ impl Estimator for EquiangularMis {
             let surface = world.nearest_surface(&ray, vertices == 0);
 
             // The additional vertex and its connection.
-            let passage = Passage::through(world.scene, &ray, surface.t());
+            let passage = Passage::through(&world.media, &ray, surface.t());
             if let Some(passage) = &passage
                 && vertices + 1 < world.settings.max_depth
             {
@@ -82,9 +82,9 @@ impl Estimator for EquiangularMis {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => {
-                    reached = Reached::through(passage, point);
-                    world.scattering_vertex(point, &ray)
+                FlightEnd::Scattering(at) => {
+                    reached = Reached::through(passage, at);
+                    world.scattering_vertex(at, &ray)
                 }
                 FlightEnd::Exit => {
                     // The walk has reached a light, before the first real vertex the only technique that can.
@@ -130,8 +130,8 @@ impl Estimator for EquiangularMis {
 }
 
 /// Contribution of a vertex drawn by equiangular sampling and of its connection to the light.
-fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn equiangular_connection<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     passage: &Passage,
     path: EquiangularWeights<N>,
     trace: &mut Trace<'_>,
@@ -144,7 +144,7 @@ fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
     let (t, density) = passage.sample(pivot, trace.connection.next_1d());
     let mut link = world.pass_by_ratio(&passage.ray, t, path, trace)?;
     let collision = world.collision_at(&passage.ray, t, trace)?;
-    let density = density * probability;
+    let density = density * probability * collision.share;
     link.scatter_equiangular(&collision, density);
     let choice_there = choice.probability(light, collision.point, by);
     trace.notify(move || Note::EquiangularVertexSampled {
@@ -154,7 +154,7 @@ fn equiangular_connection<L: LocalMedium<N>, C: Components<N>, const N: usize>(
         weight_record: link.weight_record(),
     });
 
-    let vertex = world.scattering_vertex(collision.point, &passage.ray);
+    let vertex = world.scattering_vertex((&collision).into(), &passage.ray);
     let aim = world.aim_at(&vertex, light, trace.connection.next_2d())?;
     let nee = aim.density * choice_there;
     let link = link.connect_equiangular(&aim.outgoing, LightDensities { nee, eq: aim.density });

@@ -17,7 +17,7 @@
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{FlightEnd, PathWeights, Technique, Trace, WalkWeights, World, hero_event};
 
@@ -39,8 +39,8 @@ pub(super) struct Independent;
 impl Estimator for Independent {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -60,7 +60,7 @@ impl Estimator for Independent {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
                     for light in world.arrivals(&ray, &surface, vertices == 0) {
                         let value = path.hero_only(light.radiance);

@@ -26,8 +26,8 @@ use super::{
     clamped_majorant, dispatch, is_uniform,
 };
 use crate::math::{Ray, SideStream};
-use crate::medium::{AnyMedium, LocalMedium};
-use crate::scene::{Scene, SceneDoc};
+use crate::medium::LocalMedia;
+use crate::scene::{MediumDoc, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance, Sampled};
 use crate::transport::{Note, PathContext, Technique, Trace, WeightRecord, World};
 
@@ -47,28 +47,28 @@ pub(super) const ENTRY: Entry = Entry {
 /// Where components differ, the weight of a thin one is a product of factors e^((mean − μ) t), which is
 /// unbounded.
 fn infinite_variance(doc: &SceneDoc) -> Option<&'static str> {
-    let (extinction, _) = doc.medium.extinction_and_albedo(0.0);
-    let coloured = is_uniform(doc) && !extinction.is_flat();
+    let chromatic = |medium: &MediumDoc| !medium.extinction_and_albedo(0.0).0.is_flat();
+    let coloured = is_uniform(doc) && doc.enabled_media().any(chromatic);
     coloured.then_some("flights drawn from the mean extinction give thin components unbounded weights")
 }
 
 /// Flights through a uniform medium use closed forms and no majorant. Delta tracking has no weight for
 /// collisions at which the extinction exceeds the majorant.
 fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
-    if doc.medium.emission.is_some() {
+    if doc.enabled_media().any(|medium| medium.emission.is_some()) {
         return Some("it does not support light from within the medium");
     }
     if is_uniform(doc) {
         return None;
     }
-    let exceeded = doc.medium.majorant.factor < 1.0;
+    let exceeded = doc.enabled_media().any(|medium| medium.majorant.factor < 1.0);
     clamped_majorant(doc)
         .or(exceeded.then_some("its delta tracking needs a bounding majorant"))
         .or_else(|| biased_transmittance(doc))
 }
 
 fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
-    if matches!(scene.medium, AnyMedium::Homogeneous(_)) || scene.achromatic {
+    if scene.is_uniform() || scene.achromatic {
         dispatch::family::<Mitsuba2Volpath>(scene, settings, at, context)
     } else {
         dispatch::single::<Mitsuba2Volpath>(scene, settings, at, context)
@@ -80,8 +80,8 @@ struct Mitsuba2Volpath;
 impl Estimator for Mitsuba2Volpath {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -95,8 +95,8 @@ impl Estimator for Mitsuba2Volpath {
             phi *= flight.weight;
             trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
 
-            let vertex = if let Some(point) = flight.scattered_at {
-                world.scattering_vertex(point, &ray)
+            let vertex = if let Some(at) = flight.scattered_at {
+                world.scattering_vertex(at, &ray)
             } else {
                 // Lights on later segments were added when the direction was drawn.
                 if vertices == 0 {

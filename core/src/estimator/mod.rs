@@ -16,9 +16,9 @@ pub use axis::{Axis, AxisSet};
 pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::scene::{
-    self, Bookkeeping, DensityDoc, Heuristic, Heuristics, Problem, ReferenceDoc, SceneDoc, WhenExceeded,
+    self, Bookkeeping, Heuristic, Heuristics, MediumDoc, Problem, ReferenceDoc, SceneDoc, WhenExceeded,
 };
 use crate::spectrum::Components;
 use crate::transmittance::TransmittanceKind;
@@ -87,19 +87,21 @@ impl Entry {
 
 /// Bias of all estimators that sample free flights from a majorant, due to clamping the extinction at it.
 fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
-    let majorant = &doc.medium.majorant;
-    match majorant.when_exceeded {
-        WhenExceeded::Clamp if majorant.factor < 1.0 => Some("the majorant is clamped"),
-        WhenExceeded::Progressive if majorant.factor < 1.0 => {
-            Some("the majorant is clamped until it has been raised: the error vanishes with more samples")
-        }
-        _ => None,
+    let exceeded = || doc.enabled_media().map(|medium| &medium.majorant).filter(|m| m.factor < 1.0);
+    let is = |rule| exceeded().any(|majorant| majorant.when_exceeded == rule);
+    if is(WhenExceeded::Clamp) {
+        Some("the majorant is clamped")
+    } else if is(WhenExceeded::Progressive) {
+        Some("the majorant is clamped until it has been raised: the error vanishes with more samples")
+    } else {
+        None
     }
 }
 
-/// Whether extinction and albedo are the same everywhere in the medium.
+/// Whether there is a single medium, and extinction and albedo are the same everywhere in it.
 fn is_uniform(doc: &SceneDoc) -> bool {
-    matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none()
+    let mut media = doc.enabled_media();
+    media.next().is_some_and(MediumDoc::is_uniform) && media.next().is_none()
 }
 
 /// Bias of estimators with selectable transmittance of connections. Along constant extinction marching is
@@ -182,8 +184,8 @@ pub trait Estimator {
     const SHARED_MAJORANT: bool = false;
 
     /// Traces one path.
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance;
@@ -198,8 +200,8 @@ mod tests {
     fn a_bias_is_named_where_there_is_one_and_nowhere_else() {
         let with = |factor: f32, when_exceeded: WhenExceeded| {
             let mut doc = SceneDoc::default();
-            doc.medium.majorant.factor = factor;
-            doc.medium.majorant.when_exceeded = when_exceeded;
+            doc.medium_mut().majorant.factor = factor;
+            doc.medium_mut().majorant.when_exceeded = when_exceeded;
             doc
         };
         for entry in REGISTRY {
@@ -212,13 +214,14 @@ mod tests {
             assert_eq!(entry.bias(&with(0.5, WhenExceeded::Weighted)), None);
             // Delta tracking has no weights to compensate.
             let mut grid = with(0.5, WhenExceeded::Weighted);
-            grid.medium.density = DensityDoc::Grid(GridRef { file: "embedded:cloud.vdb".into(), grid: None });
+            grid.medium_mut().density =
+                DensityDoc::Grid(GridRef { file: "embedded:cloud.vdb".into(), grid: None });
             assert_eq!(entry.bias(&grid).is_some(), entry.id == "mitsuba2-volpath");
             let mut marched = grid.clone();
-            marched.medium.majorant.factor = 1.0;
+            marched.medium_mut().majorant.factor = 1.0;
             marched.estimator.transmittance = "marching".into();
             assert_eq!(entry.bias(&marched).is_some(), entry.uses(Axis::Transmittance), "{}", entry.id);
-            marched.medium.density = DensityDoc::Uniform {};
+            marched.medium_mut().density = DensityDoc::Uniform {};
             assert_eq!(
                 entry.bias(&marched),
                 None,
@@ -238,7 +241,7 @@ mod tests {
         }
         let mut doc = SceneDoc::default();
         doc.estimator.id = "magic".into();
-        doc.medium.scale = -1.0;
+        doc.medium_mut().scale = -1.0;
         let paths: Vec<_> = validate(&doc).into_iter().map(|p| p.path).collect();
         assert_eq!(paths, ["medium.scale", "estimator.id"]);
     }

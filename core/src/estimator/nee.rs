@@ -17,7 +17,7 @@
 
 use super::{Axis, Entry, Estimator, biased_transmittance, clamped_majorant, dispatch};
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::scene::SceneDoc;
 use crate::spectrum::{Components, Radiance};
 use crate::transmittance::TransmittanceKind;
@@ -52,8 +52,8 @@ pub(super) struct Nee;
 impl Estimator for Nee {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -74,7 +74,7 @@ impl Estimator for Nee {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
                     if vertices == 0 {
                         // No real vertex yet: only the walk can reach this light.

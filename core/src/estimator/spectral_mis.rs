@@ -18,7 +18,7 @@
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{FlightEnd, PathWeights, Technique, Trace, WalkWeights, World, hero_event};
 
@@ -40,8 +40,8 @@ pub(super) struct SpectralMis;
 impl Estimator for SpectralMis {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -62,7 +62,7 @@ impl Estimator for SpectralMis {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
                     // The walk has reached a light; no other technique can make this path.
                     for light in world.arrivals(&ray, &surface, vertices == 0) {

@@ -20,7 +20,7 @@
 
 use super::{Axis, Entry, Estimator, clamped_majorant, dispatch};
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::scene::{SceneDoc, Tracking};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
@@ -54,8 +54,8 @@ impl Estimator for SpectralTracking {
     const USES: &'static [Axis] = USES;
     const SHARED_MAJORANT: bool = true;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -75,7 +75,7 @@ impl Estimator for SpectralTracking {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
                     for light in world.arrivals(&ray, &surface, vertices == 0) {
                         let value = path.as_drawn(light.radiance);

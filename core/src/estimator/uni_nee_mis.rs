@@ -27,7 +27,7 @@
 
 use super::{Axis, Entry, Estimator, PathEstimate, PathIndex, Settings, clamped_majorant, dispatch};
 use crate::math::{Ray, SideStream};
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::scene::{Bookkeeping, Fault, LightWalk, Scene, SceneDoc};
 use crate::spectrum::{Components, Radiance};
 use crate::transport::{
@@ -86,8 +86,8 @@ struct UniNeeMis<B>(PhantomData<B>);
 impl<B: WeightForm> Estimator for UniNeeMis<B> {
     const USES: &'static [Axis] = USES;
 
-    fn estimate<L: LocalMedium<N>, C: Components<N>, const N: usize>(
-        world: &World<'_, L, C, N>,
+    fn estimate<M: LocalMedia<N>, C: Components<N>, const N: usize>(
+        world: &World<'_, M, C, N>,
         mut ray: Ray,
         trace: &mut Trace<'_>,
     ) -> C::Radiance {
@@ -109,7 +109,7 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
             );
             let vertex = match flight {
                 FlightEnd::Absorption => return radiance,
-                FlightEnd::Scattering(point) => world.scattering_vertex(point, &ray),
+                FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
                     // The walk has reached a light, before the first real vertex the only technique that can.
                     if last.is_none() || world.settings.light_walk == LightWalk::Fused {
@@ -145,8 +145,8 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
 }
 
 /// Adds the lights that a separate walk along the ray reaches, if it has no real event before them.
-fn by_separate_walk<L: LocalMedium<N>, C: Components<N>, W: Weights<N>, const N: usize>(
-    world: &World<'_, L, C, N>,
+fn by_separate_walk<M: LocalMedia<N>, C: Components<N>, W: Weights<N>, const N: usize>(
+    world: &World<'_, M, C, N>,
     vertex: &Vertex,
     ray: &Ray,
     mut path: W,

@@ -88,7 +88,7 @@ mod tests {
                 let entry = estimator::find(panel.estimator).unwrap();
                 assert_eq!((entry.bias(doc), doc.render.spp), (None, Some(64)), "{}", strip.name);
                 assert_eq!(doc.estimator.wavelengths, WavelengthSampling::Uniform);
-                assert_eq!(doc.medium.majorant.resolution, Some(1));
+                assert_eq!(doc.medium().majorant.resolution, Some(1));
                 // Panels and reference converge to the same image.
                 assert_eq!(doc.target_part(), reference.target_part(), "{}", strip.name);
                 assert_ne!(doc.render.seed, reference.render.seed);

@@ -25,9 +25,9 @@ pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresErro
     if thickness <= 0.0 {
         return Err(FiguresError::Empty { file: name });
     }
-    doc.medium.scale *= self::thickness(&ours) / thickness;
+    doc.medium_mut().scale *= self::thickness(&ours) / thickness;
     let (lo, hi) = own_box(doc)?;
-    let placement = &mut doc.medium.placement;
+    let placement = &mut doc.medium_mut().placement;
     if placement.fit.is_none() {
         // With `fit` the box is centred on the origin; the embedded volume rotates about its own origin.
         let centre = Vec3::from(placement.scale) * (0.5 * (lo + hi));
@@ -35,12 +35,12 @@ pub(super) fn replace(doc: &mut SceneDoc, file: &Path) -> Result<(), FiguresErro
         placement.translate = (Vec3::from(placement.translate) + moved).into();
         placement.fit = Some((hi - lo).max_element());
     }
-    doc.medium.density = DensityDoc::Grid(GridRef { file: name, grid: None });
+    doc.medium_mut().density = DensityDoc::Grid(GridRef { file: name, grid: None });
     Ok(())
 }
 
 fn embedded(doc: &SceneDoc) -> Result<Option<Volume>, VolumeError> {
-    let Some(grid) = doc.medium.density.grid() else { return Ok(None) };
+    let Some(grid) = doc.medium().density.grid() else { return Ok(None) };
     let Some(bytes) = embedded::volume(&grid.file) else { return Ok(None) };
     read_sparse_volume_bytes(bytes, &grid.file, grid.grid.as_deref(), &ReadLimits::default(), &|_| ())
         .map(Some)
@@ -48,8 +48,8 @@ fn embedded(doc: &SceneDoc) -> Result<Option<Volume>, VolumeError> {
 
 /// Bounding box of the embedded grid in the scene, before its placement.
 fn own_box(doc: &SceneDoc) -> Result<(Vec3, Vec3), FiguresError> {
-    let Some(grid) = doc.medium.density.grid() else { return Ok((Vec3::ZERO, Vec3::ONE)) };
-    let placed = Library::default().scalar_grid(grid, doc.medium.precision)?;
+    let Some(grid) = doc.medium().density.grid() else { return Ok((Vec3::ZERO, Vec3::ONE)) };
+    let placed = Library::default().scalar_grid(grid, doc.medium().precision)?;
     Ok(bounds(&placed.object_from_unit))
 }
 
@@ -79,7 +79,7 @@ mod tests {
             let ours = scene(name);
             let mut own = ours.clone();
             replace(&mut own, &file).unwrap();
-            assert!((own.medium.scale / ours.medium.scale - 1.0).abs() < 1e-5, "{name}");
+            assert!((own.medium().scale / ours.medium().scale - 1.0).abs() < 1e-5, "{name}");
             // The same box in world space, compared through the built scenes.
             let bounds = |doc: &SceneDoc| {
                 let info = crate::scene::build(doc, &mut Library::default()).unwrap().info;

@@ -125,7 +125,7 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
     }
     if connected > 0.5
         && estimator.directions == DirectionSampling::Phase
-        && Phase::new(&doc.medium.phase).mean_cosine() > 0.7
+        && doc.enabled_media().any(|medium| Phase::new(&medium.phase).mean_cosine() > 0.7)
     {
         let because = format!(
             "{} of the variance comes from connections with strongly forward scattering",
@@ -174,10 +174,12 @@ pub fn advise(doc: &SceneDoc, evidence: &Evidence) -> Vec<Advice> {
         );
         propose(because, "Begin Russian roulette later", &|doc| doc.estimator.roulette_depth = Some(32));
     }
-    if doc.medium.majorant.factor < 1.0 {
+    if doc.enabled_media().any(|medium| medium.majorant.factor < 1.0) {
         let because = "the extinction exceeds the majorant, and weights grow".to_owned();
         propose(because, "Raise the majorant to the bound of the extinction", &|doc| {
-            doc.medium.majorant.factor = 1.0
+            for medium in &mut doc.media {
+                medium.majorant.factor = medium.majorant.factor.max(1.0);
+            }
         });
     }
     if is("mitsuba2-volpath") || is("spectral-tracking") {
@@ -223,7 +225,7 @@ mod tests {
         let near = Evidence { heaviest: beside_a_light, ..quiet.clone() };
         assert!(changes(&doc, &near)[0].contains("equiangular"));
         doc.estimator.absorption = Absorption::Analogue;
-        doc.medium.majorant.factor = 0.5;
+        doc.medium_mut().majorant.factor = 0.5;
         let said = changes(&doc, &quiet);
         assert!(
             said.len() == 2 && said[0].contains("absorption") && said[1].contains("majorant"),

@@ -4,8 +4,8 @@
 //! numbers. For estimators that step from collision to collision it is the product so far; for the others it
 //! is the estimate of the shorter ray.
 
-use crate::math::{BoxRay, Ray, Sampler};
-use crate::medium::{AnyMedium, Medium};
+use crate::math::{Ray, Sampler};
+use crate::medium::{LocalMedia, Several, Traversal};
 use crate::scene::{Mode, Scene};
 use crate::spectrum::{Components, RgbChannels, Sampled, Wavelengths};
 use crate::transmittance::{Analytic, InMedium, Piece, Profile, Shape, TransmittanceKind};
@@ -90,6 +90,8 @@ pub struct RayBench {
 const STEPS: u32 = 512;
 /// Number of quadrature steps per step of a curve.
 const FINE: u32 = 8;
+/// Optical depth up to which a medium without a boundary is shown.
+const UNBOUNDED_DEPTH: f32 = 6.0;
 /// Number of points of the running estimate.
 const CUTS: u32 = 192;
 
@@ -164,24 +166,17 @@ impl RayBench {
         plan: &BenchPlan,
         cancel: CancelToken<'_>,
     ) -> Option<Self> {
-        match &scene.medium {
-            AnyMedium::Homogeneous(m) => Self::through(m, scene, ray, components, plan, cancel),
-            AnyMedium::DensityGrid(m) => Self::through(m, scene, ray, components, plan, cancel),
-            AnyMedium::RgbGrids(m) => Self::through(m, scene, ray, components, plan, cancel),
-        }
-    }
-
-    fn through<M: Medium, C: Components<1>>(
-        medium: &M,
-        scene: &Scene,
-        ray: &Ray,
-        components: &C,
-        plan: &BenchPlan,
-        cancel: CancelToken<'_>,
-    ) -> Option<Self> {
-        let (start, inside) = BoxRay::enter(ray, &scene.medium_from_world, f32::INFINITY)?;
-        let local = medium.local::<1, _>(components);
-        let bench = Self::of(&InMedium::new(&local, inside), inside.t_end, plan, None, cancel)?;
+        let media = Several::new(scene.media.iter().map(|medium| &medium.placed), components, false);
+        // A medium without a boundary is shown up to the next surface, or over a few mean free paths.
+        let surface = scene.nearest_surface(ray, f32::INFINITY, true).t();
+        let (start, traversal) = media.traverse(ray, surface)?;
+        let (start, traversal) = if traversal.t_end().is_finite() {
+            (start, traversal)
+        } else {
+            media.traverse(ray, start + UNBOUNDED_DEPTH / traversal.extinction_prior(0.0).mean.hero())?
+        };
+        let length = traversal.t_end();
+        let bench = Self::of(&InMedium::new(traversal), length, plan, None, cancel)?;
         Some(Self { start, ..bench })
     }
 

@@ -227,7 +227,7 @@ mod tests {
     use crate::spectrum::SpectrumDoc;
 
     fn field(doc: &SceneDoc, library: &mut Library) -> (usize, usize) {
-        match build(doc, library).expect("a good scene").medium {
+        match &build(doc, library).expect("a good scene").medium(0).placed.medium {
             AnyMedium::DensityGrid(medium) => {
                 (Arc::as_ptr(&medium.density).addr(), Arc::as_ptr(&medium.bounds).addr())
             }
@@ -239,15 +239,15 @@ mod tests {
     fn edits_of_anything_but_the_field_touch_no_voxel() {
         let toml = embedded::find("first-light").expect("the first scene").toml;
         let mut doc = scene_file::parse(toml, "first-light").expect("a good scene");
-        doc.medium.majorant.resolution = Some(12);
+        doc.medium_mut().majorant.resolution = Some(12);
         let mut library = Library::default();
         let (density, bounds) = field(&doc, &mut library);
         let edits: [fn(&mut SceneDoc); 7] = [
-            |d| d.medium.scale = 3.0,
-            |d| d.medium.albedo = SpectrumDoc::Constant(0.5),
-            |d| d.medium.extinction = SpectrumDoc::Constant(7.0),
-            |d| d.medium.majorant.factor = 2.0,
-            |d| d.medium.majorant.shared = false,
+            |d| d.medium_mut().scale = 3.0,
+            |d| d.medium_mut().albedo = SpectrumDoc::Constant(0.5),
+            |d| d.medium_mut().extinction = SpectrumDoc::Constant(7.0),
+            |d| d.medium_mut().majorant.factor = 2.0,
+            |d| d.medium_mut().majorant.shared = false,
             |d| d.camera.fov_deg = 20.0,
             |d| d.lights.truncate(1),
         ];
@@ -256,12 +256,12 @@ mod tests {
             assert_eq!(field(&doc, &mut library), (density, bounds), "edit {i}");
         }
         // Another resolution has other majorants of the same voxels; both are cached.
-        doc.medium.majorant.resolution = Some(13);
+        doc.medium_mut().majorant.resolution = Some(13);
         let other = field(&doc, &mut library);
         assert!(other.0 == density && other.1 != bounds);
-        doc.medium.majorant.resolution = Some(12);
+        doc.medium_mut().majorant.resolution = Some(12);
         assert_eq!(field(&doc, &mut library), (density, bounds));
-        doc.medium.precision = Precision::F16;
+        doc.medium_mut().precision = Precision::F16;
         assert_ne!(field(&doc, &mut library).0, density);
     }
 

@@ -65,14 +65,14 @@ pub fn parse(text: &str, name: &str) -> Result<SceneDoc, SceneFileError> {
         let offset = locate_error(text, &e);
         invalid(offset, e.message().to_owned())
     })?;
-    let doc = doc.with_window_keys_moved();
-    if doc.majorant != FORMAT_VERSION {
+    if !(1..=FORMAT_VERSION).contains(&doc.majorant) {
         let message = format!(
-            "this is scene format {}, but this program reads format {FORMAT_VERSION}: set `majorant = {FORMAT_VERSION}` if the keys fit",
+            "this is scene format {}, but this program reads formats 1 to {FORMAT_VERSION}: set `majorant = {FORMAT_VERSION}` if the keys fit",
             doc.majorant
         );
         return Err(invalid(offset_of(text, "majorant").unwrap_or(0), message));
     }
+    let doc = doc.upgraded();
     match validate(&doc).into_iter().next() {
         None => Ok(doc),
         Some(problem) => Err(invalid(offset_of(text, &problem.path).unwrap_or(0), problem.to_string())),
@@ -98,8 +98,9 @@ pub fn save(path: &Path, doc: &SceneDoc) -> Result<(), SceneFileError> {
         .map_err(|source| SceneFileError::Io { file: path.display().to_string(), source })
 }
 
-/// Applies `KEY=VALUE` overrides such as `medium.majorant.factor=2` or `lights.0.scale=3`. Values use the
-/// syntax of scene files; a value that is not valid TOML is taken as text.
+/// Applies `KEY=VALUE` overrides such as `medium.majorant.factor=2` or `lights.0.scale=3`. `medium.KEY`
+/// addresses the only medium, `media.NAME.KEY` one of several. Values use the syntax of scene files; a value
+/// that is not valid TOML is taken as text.
 ///
 /// # Errors
 /// When a key does not exist, a value has the wrong type, or the resulting scene is invalid; the error names
@@ -114,7 +115,7 @@ pub fn override_keys(doc: &SceneDoc, assignments: &[String]) -> Result<SceneDoc,
         let mut tree = toml::Value::try_from(&doc).map_err(|e| failed(e.to_string()))?;
         set(&mut tree, path.trim(), read_value(value.trim())).map_err(failed)?;
         doc = tree.try_into().map_err(|e: toml::de::Error| failed(e.message().to_owned()))?;
-        doc = doc.with_window_keys_moved();
+        doc = doc.upgraded();
     }
     // Only the combination is validated: a width may require the height that follows it.
     match validate(&doc).into_iter().next() {
@@ -145,6 +146,21 @@ fn set(tree: &mut toml::Value, path: &str, value: toml::Value) -> Result<(), Str
     let mut at = tree;
     let mut keys: Vec<&str> = path.split('.').collect();
     let last = keys.pop().filter(|k| !k.is_empty()).ok_or("the key is empty")?;
+    let mut keys = keys.into_iter().peekable();
+    if let Some(section @ ("medium" | "media")) = keys.peek().copied() {
+        keys.next();
+        let media =
+            child(at, "medium").and_then(toml::Value::as_array_mut).ok_or("the scene has no medium")?;
+        let name = if section == "media" { keys.next().or(Some(last)) } else { None };
+        let index = keys.peek().and_then(|key| key.parse::<usize>().ok()).filter(|_| section == "medium");
+        at = match index {
+            Some(index) => {
+                keys.next();
+                media.get_mut(index).ok_or_else(|| format!("`{path}`: there is no element {index}"))?
+            }
+            None => addressed(media, name)?,
+        };
+    }
     for key in keys {
         at = child(at, key).ok_or_else(|| format!("there is no `{key}` on the way to `{path}`"))?;
     }
@@ -160,6 +176,22 @@ fn set(tree: &mut toml::Value, path: &str, value: toml::Value) -> Result<(), Str
         }
         _ => Err(format!("`{path}` leads into a plain value")),
     }
+}
+
+/// The medium with a name, or the only medium.
+fn addressed<'a>(media: &'a mut [toml::Value], name: Option<&str>) -> Result<&'a mut toml::Value, String> {
+    let name_of = |medium: &toml::Value| medium.get("name").and_then(toml::Value::as_str).map(str::to_owned);
+    let names: Vec<_> = media.iter().filter_map(name_of).collect();
+    let several = || format!("write media.NAME.KEY with one of the names {}", names.join(", "));
+    let index = match name {
+        Some(name) => names
+            .iter()
+            .position(|known| known == name)
+            .ok_or_else(|| format!("no medium is named `{name}`: {}", several()))?,
+        None if media.len() > 1 => return Err(format!("the scene has {} media: {}", media.len(), several())),
+        None => 0,
+    };
+    media.get_mut(index).ok_or_else(|| "the scene has no medium".to_owned())
 }
 
 fn child<'a>(tree: &'a mut toml::Value, key: &str) -> Option<&'a mut toml::Value> {
@@ -205,6 +237,13 @@ fn offset_of(text: &str, path: &str) -> Option<usize> {
     let mut parts = path.split(['.', '[', ']']).filter(|part| !part.is_empty());
     let mut found = document.get_ref().get(parts.next()?)?;
     for part in parts {
+        // The keys of the only medium have no index.
+        if let (DeValue::Array(elements), Err(_)) = (found.get_ref(), part.parse::<usize>())
+            && elements.len() == 1
+            && let Some(only) = elements.first()
+        {
+            found = only;
+        }
         let next = match (found.get_ref(), part.parse::<usize>()) {
             (DeValue::Array(elements), Ok(index)) => elements.get(index),
             (DeValue::Table(table), _) => table.get(part),

@@ -79,6 +79,7 @@ impl Source {
         match self {
             Self::Rectangle { area, luminance, .. } => PI * area * luminance,
             Self::Sphere { radius, luminance, .. } => 4.0 * PI * PI * radius * radius * luminance,
+            Self::Distant { illuminance } if illuminance == 0.0 => 0.0,
             Self::Distant { illuminance } => PI * radius * radius * illuminance,
         }
     }
@@ -103,10 +104,18 @@ impl Source {
 }
 
 impl LightChoice {
-    /// Prepares the choice among these lights, around a medium that fits into a ball of this radius.
+    /// Prepares the choice among these lights, around media that fit into a ball of this radius; infinite for a
+    /// medium without a boundary, which extinguishes distant lights.
     #[must_use]
     pub fn new(lights: &[Light], medium_radius: f32) -> Self {
-        let sources: Vec<_> = lights.iter().map(Source::new).collect();
+        let mut sources: Vec<_> = lights.iter().map(Source::new).collect();
+        if medium_radius == f32::INFINITY {
+            for source in &mut sources {
+                if let Source::Distant { illuminance } = source {
+                    *illuminance = 0.0;
+                }
+            }
+        }
         let powers: Vec<f32> = sources.iter().map(|s| s.power(medium_radius).max(0.0)).collect();
         let total: f32 = powers.iter().sum();
         let by_power = powers.iter().map(|power| mixed(*power, total, powers.len())).collect();

@@ -3,11 +3,16 @@
 //! A medium provides two things only (the report's appendix B): its coefficients at a point, and majorant
 //! segments along a ray. Sampling, events and transmittance are in [`crate::transport`].
 //!
-//! Every medium fills the unit cube of its own *medium space*, which an affine transform places in the world.
-//! Rays are transformed to medium space with unchanged parameter `t`, so that distances, and therefore
-//! coefficients per scene unit, are preserved under any placement.
+//! A grid fills the unit cube of its own *medium space*, which an affine transform places in the world. Rays
+//! are transformed to medium space with unchanged parameter `t`, so that distances, and therefore coefficients
+//! per scene unit, are preserved under any placement. A homogeneous medium may instead fill a ball or all of
+//! space ([`Region`]).
+//!
+//! A scene has any number of media; where they overlap, their coefficients add. [`LocalMedia`] is the
+//! interface to all of them along a ray.
 
 mod albedo;
+mod any;
 mod cell_walk;
 mod coefficients;
 mod density_grid;
@@ -17,11 +22,17 @@ mod homogeneous;
 mod majorant;
 mod majorant_grid;
 mod majorants;
+mod media;
+mod one;
+mod placed;
+mod region;
 mod rgb_grids;
+mod several;
 mod shared_majorant;
 mod violations;
 
 pub use albedo::{diffuse_albedo, single_scattering_albedo};
+pub use any::LocalAny;
 pub use cell_walk::{CellSegment, CellWalk};
 pub use coefficients::{Coefficients, ExtinctionPrior};
 pub use density_grid::DensityGrid;
@@ -31,7 +42,12 @@ pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantDoc, MajorantPolicy, MajorantSegment, WhenExceeded};
 pub use majorant_grid::MajorantGrid;
 pub use majorants::{MAX_MAJORANT_CELLS, Majorants};
+pub use media::{LocalMedia, Member, Traversal};
+pub use one::{One, OneTraversal};
+pub use placed::PlacedMedium;
+pub use region::Region;
 pub use rgb_grids::{AlbedoField, ExtinctionField, RgbGrids};
+pub use several::{Several, SeveralTraversal};
 pub use shared_majorant::SharedMajorant;
 pub use violations::Violations;
 
@@ -54,7 +70,7 @@ pub trait Medium: Send + Sync {
 /// Medium at the components of one path: the interface that transport uses.
 pub trait LocalMedium<const N: usize> {
     /// Majorant segments along a ray.
-    type Segments<'a>: Iterator<Item = MajorantSegment<N>>
+    type Segments<'a>: Clone + Iterator<Item = MajorantSegment<N>>
     where
         Self: 'a;
 

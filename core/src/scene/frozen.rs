@@ -3,11 +3,10 @@
 use super::Camera;
 use crate::light::{Light, LightChoice, LightLobes};
 use crate::math::Ray;
-use crate::medium::{AnyMedium, Emission, Violations};
+use crate::medium::{AnyMedium, Emission, PlacedMedium};
 use crate::phase::Phase;
 use crate::surface::{Role, Surface, SurfaceHit};
 use glam::{Affine3A, Vec3};
-use std::sync::Arc;
 
 /// Frozen scene, immutable and shared by all views that render it.
 #[derive(Clone, Debug)]
@@ -18,16 +17,10 @@ pub struct Scene {
     pub width: u32,
     /// Height of the film in pixels.
     pub height: u32,
-    /// Medium, in the unit cube of its own space.
-    pub medium: AnyMedium,
-    /// Violations of the majorant found by free flights.
-    pub violations: Arc<Violations>,
-    /// Thermal emission of the medium.
-    pub emission: Option<Emission>,
-    /// Transform from world space into the medium's unit cube.
-    pub medium_from_world: Affine3A,
-    /// Phase function of the medium.
-    pub phase: Phase,
+    /// Media. Empty scenes have one that does not interact with light.
+    pub media: Vec<SceneMedium>,
+    /// Whether a medium without a boundary extinguishes all light from infinity.
+    pub is_unbounded: bool,
     /// Diffuse surfaces, and the surfaces of lights that have a shape.
     pub surfaces: Vec<Surface>,
     /// All lights.
@@ -36,7 +29,7 @@ pub struct Scene {
     pub light_choice: LightChoice,
     /// Direction lobes towards the lights that have a dominant direction.
     pub lobes: Option<LightLobes>,
-    /// Whether medium and surfaces are independent of wavelength.
+    /// Whether media and surfaces are independent of wavelength.
     pub achromatic: bool,
     /// Statistics for display.
     pub info: SceneInfo,
@@ -44,9 +37,54 @@ pub struct Scene {
     pub notices: Vec<String>,
 }
 
+/// A medium of a scene.
+#[derive(Clone, Debug)]
+pub struct SceneMedium {
+    /// Index in the document.
+    pub index: usize,
+    /// Coefficients, region and violations of the majorant.
+    pub placed: PlacedMedium,
+    /// Phase function.
+    pub phase: Phase,
+    /// Thermal emission.
+    pub emission: Option<Emission>,
+    /// Axis-aligned bounds in world space; `None` for a medium without a boundary.
+    pub bounds: Option<(Vec3, Vec3)>,
+    /// Transform from world space to medium space.
+    pub(super) medium_from_world: Affine3A,
+}
+
+impl SceneMedium {
+    /// Transform from world space to medium space.
+    #[must_use]
+    #[inline]
+    pub fn medium_from_world(&self) -> &Affine3A {
+        &self.medium_from_world
+    }
+}
+
 /// Statistics of a scene for display.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SceneInfo {
+    /// Statistics of every medium of the document; `None` for media that are not part of the scene.
+    pub media: Vec<Option<MediumInfo>>,
+    /// Minimum corner of the bounds of all media in world space.
+    pub world_min: [f32; 3],
+    /// Maximum corner of the bounds of all media in world space.
+    pub world_max: [f32; 3],
+}
+
+impl SceneInfo {
+    /// Statistics of a medium, by its index in the document; `None` if it is not part of the scene.
+    #[must_use]
+    pub fn medium(&self, index: usize) -> Option<&MediumInfo> {
+        self.media.get(index)?.as_ref()
+    }
+}
+
+/// Statistics of a medium for display.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MediumInfo {
     /// Name of the density grid in its file; empty if it has none.
     pub density_grid: String,
     /// Name of the temperature grid in its file; empty if it has none.
@@ -66,15 +104,11 @@ pub struct SceneInfo {
     /// Mean extinction over mean majorant: the fraction of real collisions along a straight line through the
     /// box.
     pub tightness: f32,
-    /// Minimum corner of the medium's bounds in world space.
-    pub world_min: [f32; 3],
-    /// Maximum corner of the medium's bounds in world space.
-    pub world_max: [f32; 3],
     /// Number of non-zero density voxels.
     pub occupied_voxels: usize,
     /// Maximum error of the density due to storage at reduced precision.
     pub storage_error: f32,
-    /// Memory of all grids in bytes.
+    /// Memory of its grids in bytes.
     pub memory_bytes: usize,
 }
 
@@ -103,21 +137,57 @@ impl<'a> NearestSurface<'a> {
 }
 
 impl Scene {
-    /// Returns the same scene with an empty record of majorant violations.
+    /// The medium with this index among those of the scene.
     #[must_use]
-    pub fn without_violations(&self) -> Self {
-        Self { violations: Arc::new(Violations::none(self.violations.cells())), ..self.clone() }
+    #[inline]
+    pub fn medium(&self, index: u32) -> &SceneMedium {
+        &self.media[index as usize]
     }
 
-    /// Returns the same scene with majorants raised by all recorded violations and an empty record; `None` if
-    /// there are no violations or the majorant is not progressive.
+    /// The medium with this index in the document; `None` if it is not part of the scene.
+    #[must_use]
+    pub fn medium_of_document(&self, index: usize) -> Option<&SceneMedium> {
+        self.media.iter().find(|medium| medium.index == index)
+    }
+
+    /// Returns whether there is a single medium, and extinction and albedo are the same everywhere in it.
+    #[must_use]
+    pub fn is_uniform(&self) -> bool {
+        matches!(&*self.media, [only] if matches!(only.placed.medium, AnyMedium::Homogeneous(_)))
+    }
+
+    /// Returns whether the extinction of a medium may exceed its majorant.
+    #[must_use]
+    pub fn is_watched(&self) -> bool {
+        self.media.iter().any(|medium| medium.placed.medium.is_watched())
+    }
+
+    /// Returns whether a majorant is raised where it is found to be exceeded.
+    #[must_use]
+    pub fn is_progressive(&self) -> bool {
+        self.media.iter().any(|medium| medium.placed.medium.is_progressive())
+    }
+
+    /// Returns the same scene with empty records of majorant violations.
+    #[must_use]
+    pub fn without_violations(&self) -> Self {
+        self.with_media(PlacedMedium::without_violations)
+    }
+
+    /// Returns the same scene with majorants raised by all recorded violations and empty records; `None` if
+    /// there are no violations of a progressive majorant.
     #[must_use]
     pub fn raised(&self) -> Option<Self> {
-        (self.medium.is_progressive() && self.violations.exceeded_cells() > 0).then(|| {
-            let mut raised = self.without_violations();
-            raised.medium = self.medium.raised(&self.violations);
-            raised
-        })
+        let due = self.media.iter().any(|medium| medium.placed.must_be_raised());
+        due.then(|| self.with_media(PlacedMedium::raised))
+    }
+
+    fn with_media(&self, change: impl Fn(&PlacedMedium) -> PlacedMedium) -> Self {
+        let mut scene = self.clone();
+        for medium in &mut scene.media {
+            medium.placed = change(&medium.placed);
+        }
+        scene
     }
 
     /// Returns whether any surface intersects the ray at `0 < t < t_max`.

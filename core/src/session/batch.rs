@@ -79,7 +79,7 @@ pub fn render(probe: &Probe, pool: &ThreadPool, budget: Budget) -> Batch {
 /// When the operating system refuses a thread.
 pub fn probe_of_film(probe: &Probe, threads: Option<usize>, samples: u64) -> std::io::Result<Probe> {
     match samples.saturating_sub(1).checked_ilog2() {
-        Some(raises) if probe.scene.medium.is_progressive() => {
+        Some(raises) if probe.scene.is_progressive() => {
             let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
             let pool = pool.map_err(std::io::Error::other)?;
             Ok(render(probe, &pool, Budget::Samples(1 << raises)).probe)
@@ -148,8 +148,8 @@ mod tests {
     #[test]
     fn a_batch_raises_majorants_and_its_probe_replays_every_sample() {
         let mut doc = doc();
-        doc.medium.majorant.factor = 0.1;
-        doc.medium.majorant.when_exceeded = WhenExceeded::Progressive;
+        doc.medium_mut().majorant.factor = 0.1;
+        doc.medium_mut().majorant.when_exceeded = WhenExceeded::Progressive;
         let scene = Arc::new(build(&doc, &mut Library::default()).unwrap());
         let kernel = find("uni-nee-mis").unwrap().kernel;
         let probe = Probe::new(scene, kernel, Settings::new(&doc.estimator, 0));

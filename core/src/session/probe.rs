@@ -18,13 +18,18 @@ pub struct Probe {
     pub(super) kernel: Kernel,
     pub(super) settings: Settings,
     /// Majorant violations found by the paths of the film; paths traced separately record their own.
-    found: Arc<Violations>,
+    found: Vec<Arc<Violations>>,
 }
 
 impl fmt::Debug for Probe {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.debug_struct("Probe").field("settings", &self.settings).finish_non_exhaustive()
     }
+}
+
+/// The records of violations of all media of a scene.
+fn violations_of(scene: &Scene) -> Vec<Arc<Violations>> {
+    scene.media.iter().map(|medium| Arc::clone(&medium.placed.violations)).collect()
 }
 
 /// Approximate maximum number of pixels that are analysed as evidence, and of samples over all of them. This
@@ -45,7 +50,7 @@ impl Probe {
     /// Creates a probe of a scene with the kernel of an estimator.
     #[must_use]
     pub fn new(scene: Arc<Scene>, kernel: Kernel, settings: Settings) -> Self {
-        let found = Arc::clone(&scene.violations);
+        let found = violations_of(&scene);
         Self { scene, before: Vec::new(), kernel, settings, found }
     }
 
@@ -54,21 +59,22 @@ impl Probe {
     #[must_use]
     pub fn aside(&self) -> Self {
         let scene = &self.scene;
-        let scene =
-            if scene.medium.is_watched() { Arc::new(scene.without_violations()) } else { Arc::clone(scene) };
+        let scene = if scene.is_watched() { Arc::new(scene.without_violations()) } else { Arc::clone(scene) };
         Self { scene, ..self.clone() }
     }
 
     /// Probe for a film without samples: no violation has been found.
     pub(super) fn afresh(&self) -> Self {
         let aside = self.aside();
-        Self { found: Arc::clone(&aside.scene.violations), ..aside }
+        Self { found: violations_of(&aside.scene), ..aside }
     }
 
-    /// Violations of the newest majorants by the paths of the film.
+    /// Violations of a medium's newest majorant by the paths of the film; `None` if the document's medium
+    /// with this index is not part of the scene.
     #[must_use]
-    pub fn violations(&self) -> &Violations {
-        &self.found
+    pub fn violations(&self, medium: usize) -> Option<&Violations> {
+        let slot = self.scene.media.iter().position(|m| m.index == medium)?;
+        self.found.get(slot).map(|violations| &**violations)
     }
 
     /// Number of times that the majorants were raised. Samples added after the next raise use higher
@@ -81,7 +87,7 @@ impl Probe {
     /// Samples from the `spp`-th on until the majorants may be raised. Raises occur after 1, 2, 4, 8, …
     /// samples per pixel, so that the majorants of a sample do not depend on time.
     pub(super) fn until_raise(&self, spp: u64) -> u64 {
-        if !self.scene.medium.is_progressive() {
+        if !self.scene.is_progressive() {
             return u64::MAX;
         }
         spp.saturating_add(1).checked_next_power_of_two().map_or(u64::MAX, |next| next - spp)
@@ -93,7 +99,7 @@ impl Probe {
         let Some(raised) = sample.is_power_of_two().then(|| self.scene.raised()).flatten() else {
             return false;
         };
-        self.found = Arc::clone(&raised.violations);
+        self.found = violations_of(&raised);
         self.before.push((sample, std::mem::replace(&mut self.scene, Arc::new(raised))));
         true
     }

@@ -156,6 +156,16 @@ impl Spectrum {
     pub fn largest(&self) -> f32 {
         self.max_over_wavelengths().max(self.rgb.max_element())
     }
+
+    /// Returns whether the value is above zero at every rendered wavelength and in every component of RGB
+    /// mode.
+    #[must_use]
+    pub fn is_positive(&self) -> bool {
+        let steps = (LAMBDA_MAX_NM - LAMBDA_MIN_NM) as u16;
+        let lambdas = (0..=steps).map(|i| LAMBDA_MIN_NM + f32::from(i));
+        let knots = self.knots().into_iter().filter(|l| (LAMBDA_MIN_NM..=LAMBDA_MAX_NM).contains(l));
+        self.rgb.min_element() > 0.0 && lambdas.chain(knots).all(|lambda_nm| self.at(lambda_nm) > 0.0)
+    }
 }
 
 impl Shape {

@@ -1,57 +1,52 @@
-//! Extinction profile of a ray through a medium.
+//! Extinction profile of a ray through the media of a scene.
 
 use super::{Piece, Profile};
-use crate::math::BoxRay;
-use crate::medium::LocalMedium;
+use crate::medium::Traversal;
 use crate::spectrum::Sampled;
 
-/// Extinction of a medium along a ray, for the transmittance of a connection in a scene.
+/// Extinction of all media along a ray, for the transmittance of a connection in a scene.
 #[derive(Clone, Copy, Debug)]
-pub struct InMedium<'m, L, const N: usize> {
-    medium: &'m L,
-    ray: BoxRay,
-}
+pub struct InMedium<T>(T);
 
-impl<'m, L: LocalMedium<N>, const N: usize> InMedium<'m, L, N> {
-    /// Creates the profile along `ray` from its start to its end.
+impl<T> InMedium<T> {
+    /// Creates the profile along a traversal, which must not have been advanced.
     #[must_use]
     #[inline]
-    pub fn new(medium: &'m L, ray: BoxRay) -> Self {
-        Self { medium, ray }
+    pub fn new(traversal: T) -> Self {
+        Self(traversal)
     }
 }
 
-impl<L: LocalMedium<N>, const N: usize> Profile<N> for InMedium<'_, L, N> {
+impl<T: Traversal<N>, const N: usize> Profile<N> for InMedium<T> {
     type Pieces<'a>
-        = Pieces<'a, L, N>
+        = Pieces<'a, T, N>
     where
         Self: 'a;
 
     #[inline]
-    fn pieces(&self) -> Pieces<'_, L, N> {
-        Pieces { medium: self.medium, ray: &self.ray, segments: self.medium.segments(&self.ray) }
+    fn pieces(&self) -> Pieces<'_, T, N> {
+        Pieces { along: &self.0, segments: self.0.clone() }
     }
 
     #[inline]
     fn extinction(&self, t: f32, piece: &Piece<N>) -> Sampled<N> {
-        self.medium.coefficients(self.ray.at(t), &piece.segment).extinction()
+        self.0.extinction(t, &piece.segment)
     }
 }
 
-/// The majorant segments of a ray, with the medium's prior minorant and mean.
-pub struct Pieces<'a, L: LocalMedium<N> + 'a, const N: usize> {
-    medium: &'a L,
-    ray: &'a BoxRay,
-    segments: L::Segments<'a>,
+/// The majorant segments of a ray, with the prior minorant and mean of the media.
+pub struct Pieces<'a, T, const N: usize> {
+    along: &'a T,
+    segments: T,
 }
 
-impl<L: LocalMedium<N>, const N: usize> Iterator for Pieces<'_, L, N> {
+impl<T: Traversal<N>, const N: usize> Iterator for Pieces<'_, T, N> {
     type Item = Piece<N>;
 
     #[inline]
     fn next(&mut self) -> Option<Piece<N>> {
         let segment = self.segments.next()?;
-        let mut known = self.medium.extinction_prior(self.ray.at(0.5 * (segment.t0 + segment.t1)));
+        let mut known = self.along.extinction_prior(0.5 * (segment.t0 + segment.t1));
         if segment.clamp_null {
             // The extinction is clamped at the majorant.
             known.minorant = known.minorant.zip(segment.majorant, f32::min);

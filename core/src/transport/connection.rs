@@ -3,10 +3,13 @@
 //! Every collision on the connection is taken as null (ratio tracking), so that the connection always
 //! reaches the light, with the transmittance as its weight (the report's algorithm 6, mode "nee").
 
-use super::{Collision, DirectionSample, Note, Technique, Trace, Vertex, WalkWeights, Weights, World};
+use super::{
+    Collision, DirectionSample, EventRule, Note, Part, Place, Technique, Trace, Vertex, WalkWeights, Weights,
+    World,
+};
 use crate::light::{Emitter, LobeParts};
-use crate::math::{BoxRay, Ray, SideStream};
-use crate::medium::LocalMedium;
+use crate::math::{Ray, SideStream};
+use crate::medium::{LocalMedia, Traversal};
 use crate::scene::{LightSampling, NearestSurface};
 use crate::spectrum::{Components, Sampled};
 use crate::transmittance::InMedium;
@@ -53,7 +56,7 @@ impl<R> Aim<R> {
     }
 }
 
-impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
+impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
     /// As [`Self::connect`], with the transmittance estimator of the settings. Such an estimate has no path
     /// density, so that MIS can weight the path only over heroes.
     pub fn connect_by_estimate<W: Weights<N>>(
@@ -125,16 +128,20 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some(weights)
     }
 
-    /// The collision that a walk could have at a point of a ray; `None` outside the medium.
+    /// The collision that a walk could have at a point of a ray; `None` outside all media. Where media
+    /// overlap, one is drawn by its share of the majorant averaged over the components: the distance was not
+    /// drawn by the hero, and neither is the medium.
     pub fn collision_at(&self, ray: &Ray, t: f32, trace: &mut Trace<'_>) -> Option<Collision<N>> {
-        let point = ray.at(t);
-        let onward = Ray { origin: point, direction: ray.direction };
-        let (_, inside) = BoxRay::enter(&onward, &self.scene.medium_from_world, f32::INFINITY)?;
-        let segment = self.medium.segments(&inside).next()?;
-        trace.lookups += 1;
-        let coefficients = self.medium.coefficients(inside.at(0.0), &segment);
+        let onward = Ray { origin: ray.at(t), direction: ray.direction };
+        let (entry, mut traversal) = self.media.traverse(&onward, f32::INFINITY)?;
         // Stretches before the first segment are empty.
-        (segment.t0 <= 0.0).then(|| Collision::new(point, coefficients, (&self.settings).into()))
+        let segment = traversal.next().filter(|segment| entry + segment.t0 <= 0.0)?;
+        let number = || trace.connection.next_1d();
+        let member = traversal.draw(0.0, &segment, |majorant| majorant.mean(), number);
+        trace.lookups += 1;
+        let place = Place::of(onward.origin, &member);
+        let rule = EventRule::from(&self.settings);
+        Some(place.collide(traversal.medium(&member), rule, Part::Whole).in_medium(&member))
     }
 
     /// Chooses a light and draws a direction towards it; `None` if the contribution is zero or the light is
@@ -149,7 +156,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     }
 
     /// Draws a direction towards a light, without the probability of choosing it; `None` if the contribution
-    /// is zero or the light is occluded.
+    /// is zero or the light is occluded, or extinguished by a medium without a boundary.
     #[inline]
     pub fn aim_at(&self, vertex: &Vertex, index: usize, u: Vec2) -> Option<Aim<C::Radiance>> {
         let light = self.scene.lights.get(index)?;
@@ -157,10 +164,12 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             Some(parts) => parts.sample_light(index, light, vertex.point(), u)?,
             None => light.sample(vertex.point(), u)?,
         };
-        let outgoing = self.directions().towards(vertex, sample.direction);
+        let outgoing = self.directions(vertex).towards(vertex, sample.direction);
         let ray = Ray { origin: vertex.point(), direction: sample.direction };
         // The occlusion test ends just short of the light; the medium extends all the way.
-        if outgoing.value <= 0.0 || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4)) {
+        let extinguished = self.scene.is_unbounded && sample.distance == f32::INFINITY;
+        if outgoing.value <= 0.0 || extinguished || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4))
+        {
             return None;
         }
         Some(Aim {
@@ -221,10 +230,12 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
 
     /// Transmittance along a ray, by the estimator of the settings.
     pub fn estimate_transmittance(&self, ray: &Ray, t_max: f32, trace: &mut Trace<'_>) -> Sampled<N> {
-        let Some((_, inside)) = BoxRay::enter(ray, &self.scene.medium_from_world, t_max) else {
-            return Sampled::ONE;
-        };
-        let profile = InMedium::new(&self.medium, inside);
+        let Some((_, traversal)) = self.media.traverse(ray, t_max) else { return Sampled::ONE };
+        if traversal.t_end() == f32::INFINITY {
+            // A medium without a boundary extinguishes light from infinity.
+            return Sampled::ZERO;
+        }
+        let profile = InMedium::new(traversal);
         let estimate = self.settings.transmittance.estimate(&profile, &mut trace.connection);
         trace.lookups += u64::from(estimate.lookups);
         trace.notify(move || Note::Transmittance { estimate: estimate.weight.lanes() });

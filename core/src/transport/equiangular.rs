@@ -8,14 +8,13 @@
 //!
 //! This is the inverse square of the distance to the pivot, normalised (Kulla and Fajardo 2012, section 4.1).
 
-use super::{LightDensities, World};
-use crate::math::{BoxRay, Ray};
-use crate::medium::LocalMedium;
-use crate::scene::Scene;
+use super::{LightDensities, ScatteringPoint, World};
+use crate::math::Ray;
+use crate::medium::{LocalMedia, Traversal};
 use crate::spectrum::Components;
 use glam::Vec3;
 
-/// Part of a ray inside the medium.
+/// Part of a ray from its first entry into a medium to its last exit.
 #[derive(Clone, Copy, Debug)]
 pub struct Passage {
     /// The ray.
@@ -40,11 +39,12 @@ struct Seen {
 const LEAST_HEIGHT: f32 = 1e-3;
 
 impl Passage {
-    /// The part of a ray inside the scene's medium, up to `t_max`; `None` if it misses.
+    /// The part of a ray from its first entry into a medium to its last exit, up to `t_max`; `None` if it
+    /// misses all media.
     #[must_use]
-    pub fn through(scene: &Scene, ray: &Ray, t_max: f32) -> Option<Self> {
-        let (near, inside) = BoxRay::enter(ray, &scene.medium_from_world, t_max)?;
-        Some(Self { ray: *ray, near, far: near + inside.t_end })
+    pub fn through<const N: usize>(media: &impl LocalMedia<N>, ray: &Ray, t_max: f32) -> Option<Self> {
+        let (near, traversal) = media.traverse(ray, t_max)?;
+        Some(Self { ray: *ray, near, far: near + traversal.t_end() })
     }
 
     fn seen_from(&self, pivot: Vec3) -> Seen {
@@ -85,8 +85,9 @@ impl Passage {
 /// Approach of a path to its last vertex.
 #[derive(Clone, Copy, Debug)]
 pub enum Reached {
-    /// Along a passage, to this distance: equiangular sampling could have drawn the vertex.
-    Through(Passage, f32),
+    /// Along a passage, to this distance, in a medium with this share of the majorant: equiangular sampling
+    /// could have drawn the vertex.
+    Through(Passage, f32, f32),
     /// Without a passage: the vertex lies on a surface, or there is none yet. Equiangular sampling could not
     /// have drawn it.
     Otherwise,
@@ -95,25 +96,27 @@ pub enum Reached {
 impl Reached {
     /// Approach to a vertex in the medium.
     #[must_use]
-    pub fn through(passage: Option<Passage>, vertex: Vec3) -> Self {
-        passage.map_or(Self::Otherwise, |p| Self::Through(p, (vertex - p.ray.origin).dot(p.ray.direction)))
+    pub fn through(passage: Option<Passage>, vertex: ScatteringPoint) -> Self {
+        passage.map_or(Self::Otherwise, |p| {
+            Self::Through(p, (vertex.point - p.ray.origin).dot(p.ray.direction), vertex.share)
+        })
     }
 
     /// Light-dependent factors of the techniques' densities, for a direction from the vertex that light
     /// sampling draws with density `nee`.
     #[must_use]
-    pub fn light_densities<L: LocalMedium<N>, C: Components<N>, const N: usize>(
+    pub fn light_densities<M: LocalMedia<N>, C: Components<N>, const N: usize>(
         &self,
-        world: &World<'_, L, C, N>,
+        world: &World<'_, M, C, N>,
         light: usize,
         vertex: Vec3,
         nee: f32,
     ) -> LightDensities {
         let (scene, by) = (world.scene, world.settings.lights);
         let eq = match (self, scene.lights.get(light).and_then(|l| l.center())) {
-            (Self::Through(passage, t), Some(pivot)) => {
+            (Self::Through(passage, t, share), Some(pivot)) => {
                 let choice = |at| scene.light_choice.probability(light, at, by);
-                nee * passage.density(pivot, *t) * choice(passage.ray.origin) / choice(vertex)
+                nee * share * passage.density(pivot, *t) * choice(passage.ray.origin) / choice(vertex)
             }
             _ => 0.0,
         };

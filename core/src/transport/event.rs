@@ -25,7 +25,7 @@
 //! zero. Such a segment therefore has no control, and the table holds for the whole medium.
 
 use super::{CollisionRecord, Note, PathSettings, Trace};
-use crate::medium::Coefficients;
+use crate::medium::{Coefficients, Member};
 use crate::scene::{Absorption, DistanceSampling};
 use crate::spectrum::Sampled;
 use glam::Vec3;
@@ -67,7 +67,11 @@ impl From<&PathSettings> for EventRule {
 pub struct Collision<const N: usize> {
     /// Position in world space.
     pub point: Vec3,
-    /// μa, μs, μn, μ̄ at the point; of one part of the medium under decomposition tracking.
+    /// Index of the medium that the collision belongs to, which is a label of the path.
+    pub medium: u32,
+    /// The medium's share of the majorant of all media at the point, averaged over the components.
+    pub share: f32,
+    /// μa, μs, μn, μ̄ of the medium at the point; of one part of it under decomposition tracking.
     pub coefficients: Coefficients<N>,
     /// Density of a tentative collision with this part of the medium: μ̄ for the whole medium.
     pub tentative: Sampled<N>,
@@ -154,7 +158,24 @@ impl<const N: usize> Collision<N> {
             scattering_density *= k;
             absorption_density *= k.hero();
         }
-        Self { point, coefficients, tentative, null_density, scattering_density, absorption_density, bounds }
+        Self {
+            point,
+            medium: 0,
+            share: 1.0,
+            coefficients,
+            tentative,
+            null_density,
+            scattering_density,
+            absorption_density,
+            bounds,
+        }
+    }
+
+    /// Returns the same collision as one of a scene's media.
+    #[must_use]
+    #[inline(always)]
+    pub fn in_medium(self, member: &Member<N>) -> Self {
+        Self { medium: member.index, share: member.share, ..self }
     }
 
     /// Multiplies the densities of real events by κ = √(μ̄ / μt), which leaves μ̄ − √(μ̄ μt) to null
@@ -224,6 +245,7 @@ impl<const N: usize> Collision<N> {
         let c = &self.coefficients;
         CollisionRecord {
             point: self.point,
+            medium: self.medium,
             passed: passed.lanes(),
             absorption: c.absorption.lanes(),
             scattering: c.scattering.lanes(),

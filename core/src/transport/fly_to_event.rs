@@ -1,19 +1,18 @@
 //! Flight to the next event: the loop shared by the estimators of the null-scattering path integral.
 
-use super::{Collision, Event, Technique, Trace, WalkWeights, World};
+use super::{Collision, Event, ScatteringPoint, Technique, Trace, WalkWeights, World};
 use crate::math::Ray;
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::spectrum::Components;
-use glam::Vec3;
 
 /// End of a flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FlightEnd {
-    /// The path scatters in the medium, at this point in world space.
-    Scattering(Vec3),
+    /// The path scatters at this point of a medium.
+    Scattering(ScatteringPoint),
     /// The path is absorbed.
     Absorption,
-    /// The path leaves the medium, or reaches the end of the ray.
+    /// The path leaves all media, or reaches the end of the ray.
     Exit,
 }
 
@@ -34,7 +33,7 @@ pub fn hero_event<W: WalkWeights<N>, const N: usize>(
     event
 }
 
-impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
+impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
     /// Flies along a ray from tentative collision to tentative collision until an event is not null, or until
     /// `t_max`.
     ///
@@ -59,7 +58,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
             }
             match draw_event(path, &collision, trace) {
                 Event::Null => {}
-                Event::Scattering => return FlightEnd::Scattering(collision.point),
+                Event::Scattering => return FlightEnd::Scattering((&collision).into()),
                 Event::Absorption => return FlightEnd::Absorption,
             }
         }

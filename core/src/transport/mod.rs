@@ -33,7 +33,7 @@ pub use event::{Collision, Event, EventRule};
 pub use event_densities::EventDensities;
 pub use fly_to_event::{FlightEnd, hero_event};
 pub use observer::{CollisionRecord, Note, Observer, PathContext, Technique, WeightRecord};
-pub use vertex::Vertex;
+pub use vertex::{ScatteringPoint, Vertex};
 pub use walk::{Part, Place, Walk};
 pub use weights::PathWeights;
 pub use weights_apart::WeightsApart;

@@ -44,6 +44,8 @@ impl Technique {
 pub struct CollisionRecord {
     /// Position in world space.
     pub point: Vec3,
+    /// Index of the medium among those of the scene.
+    pub medium: u32,
     /// Majorant optical depth since the last note of the walk, per component.
     pub passed: Lanes,
     /// Absorption coefficient μa.

@@ -1,15 +1,36 @@
 //! Vertices at which a path changes direction.
 
+use super::Collision;
 use crate::light::LobeParts;
 use glam::Vec3;
+
+/// Point of a medium at which a path scatters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScatteringPoint {
+    /// Position in world space.
+    pub point: Vec3,
+    /// Index of the medium.
+    pub medium: u32,
+    /// The medium's share of the majorant of all media at the point, averaged over the components.
+    pub share: f32,
+}
+
+impl<const N: usize> From<&Collision<N>> for ScatteringPoint {
+    #[inline(always)]
+    fn from(collision: &Collision<N>) -> Self {
+        Self { point: collision.point, medium: collision.medium, share: collision.share }
+    }
+}
 
 /// A real scattering vertex.
 #[derive(Clone, Copy, Debug)]
 pub enum Vertex {
-    /// In the medium.
+    /// In a medium.
     Medium {
         /// Position.
         point: Vec3,
+        /// Index of the medium, whose phase function holds.
+        medium: u32,
         /// Incident direction of propagation.
         omega_in: Vec3,
         /// Parts of the phase function towards the lights, if directions are drawn from them.

@@ -4,72 +4,52 @@
 //! that a ray may cross any number of segments at the cost of one logarithm.
 
 use super::{Collision, EventRule, Note, Trace, WalkWeights};
-use crate::math::{BoxRay, Ray};
-use crate::medium::{LocalMedium, MajorantSegment, Violations};
-use crate::scene::{DistanceSampling, Scene};
+use crate::math::Ray;
+use crate::medium::{LocalMedia, LocalMedium, MajorantSegment, Member, Traversal};
+use crate::scene::DistanceSampling;
 use crate::spectrum::Sampled;
 use glam::Vec3;
 
 /// A walk along one ray, from tentative collision to tentative collision.
-pub struct Walk<'m, L: LocalMedium<N> + 'm, const N: usize> {
-    medium: &'m L,
-    violations: &'m Violations,
+pub struct Walk<'m, M: LocalMedia<N> + 'm, const N: usize> {
     rule: EventRule,
     /// Whether the walk searches for the path's next vertex, with the path's random numbers, or runs beside
     /// the path, with those of the side stream.
     to_vertex: bool,
-    /// Remainder of the traversal; `None` if the ray misses the medium, or has left it.
-    way: Option<Way<'m, L, N>>,
+    /// Remainder of the traversal; `None` if the ray misses all media, or has left them.
+    way: Option<Way<'m, M, N>>,
 }
 
-struct Way<'m, L: LocalMedium<N> + 'm, const N: usize> {
-    /// Ray from its entry into the medium, from which every `t` is measured.
+struct Way<'m, M: LocalMedia<N> + 'm, const N: usize> {
+    /// Ray from its entry into the media, from which every `t` is measured.
     in_world: Ray,
-    in_medium: BoxRay,
-    segments: L::Segments<'m>,
+    traversal: M::Traversal<'m>,
     segment: MajorantSegment<N>,
     t: f32,
 }
 
-impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
-    /// Starts a walk at the ray's origin; it ends where the ray leaves the medium, or at `t_max`.
+impl<'m, M: LocalMedia<N>, const N: usize> Walk<'m, M, N> {
+    /// Starts a walk at the ray's origin; it ends where the ray leaves the last medium, or at `t_max`.
     #[must_use]
     #[inline(always)]
-    pub fn new(medium: &'m L, scene: &'m Scene, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
-        Self::along(medium, scene, ray, t_max, rule.into(), true)
+    pub fn new(media: &'m M, ray: &Ray, t_max: f32, rule: impl Into<EventRule>) -> Self {
+        Self::along(media, ray, t_max, rule.into(), true)
     }
 
     /// As [`Self::new`]; `to_vertex` is true for a walk to the path's next vertex, false for one beside the
     /// path.
     #[must_use]
     #[inline(always)]
-    pub fn along(
-        medium: &'m L,
-        scene: &'m Scene,
-        ray: &Ray,
-        t_max: f32,
-        rule: EventRule,
-        to_vertex: bool,
-    ) -> Self {
-        let violations = &*scene.violations;
-        let outside = Self { medium, violations, rule, to_vertex, way: None };
-        let Some((t0, in_medium)) = BoxRay::enter(ray, &scene.medium_from_world, t_max) else {
-            return outside;
-        };
-        let mut segments = medium.segments(&in_medium);
-        let Some(segment) = segments.next() else { return outside };
+    pub fn along(media: &'m M, ray: &Ray, t_max: f32, rule: EventRule, to_vertex: bool) -> Self {
+        let outside = Self { rule, to_vertex, way: None };
+        let Some((t0, mut traversal)) = media.traverse(ray, t_max) else { return outside };
+        let Some(segment) = traversal.next() else { return outside };
         let in_world = Ray { origin: ray.at(t0), direction: ray.direction };
-        Self {
-            medium,
-            violations,
-            rule,
-            to_vertex,
-            way: Some(Way { in_world, in_medium, segments, segment, t: segment.t0 }),
-        }
+        Self { way: Some(Way { in_world, traversal, segment, t: segment.t0 }), ..outside }
     }
 
     /// Flies to the next tentative collision and multiplies the traversed stretch into `weights`; `None` once
-    /// the walk has left the medium, or the path has been cancelled.
+    /// the walk has left all media, or the path has been cancelled.
     #[inline(always)]
     pub fn next_collision(
         &mut self,
@@ -97,15 +77,23 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
                 let passed = passed + segment.majorant * distance;
                 weights.pass(passed);
                 way.t += distance;
-                let (point, inside) = (way.in_world.at(way.t), way.in_medium.at(way.t));
-                let place = Place { point, inside, segment };
+                // The medium of the collision, in proportion to the hero's majorants.
+                let number = || {
+                    if self.to_vertex { trace.sampler.next_1d() } else { trace.connection.next_1d() }
+                };
+                let member = way.traversal.draw(way.t, segment, |majorant| majorant.hero(), number);
+                let medium = way.traversal.medium(&member);
+                let place = Place::of(way.in_world.at(way.t), &member);
                 let part =
-                    if self.to_vertex { place.draw_part(self.medium, self.rule, trace) } else { Part::Whole };
+                    if self.to_vertex { place.draw_part(medium, self.rule, trace) } else { Part::Whole };
                 trace.lookups += u64::from(part.needs_lookup());
-                let collision = place.collide(self.medium, self.rule, part);
+                let collision = place.collide(medium, self.rule, part).in_medium(&member);
                 if collision.coefficients.excess > 1.0 {
                     trace.exceeded += 1;
-                    self.violations.note(inside, collision.coefficients.excess);
+                    way.traversal
+                        .placed(&member)
+                        .violations
+                        .note(place.inside, collision.coefficients.excess);
                 }
                 let weight_record = *weights;
                 trace.notify(move || Note::Collision(collision.found(passed), weight_record.weight_record()));
@@ -113,7 +101,7 @@ impl<'m, L: LocalMedium<N>, const N: usize> Walk<'m, L, N> {
             }
             optical_depth -= in_segment;
             passed += segment.majorant * (segment.t1 - way.t);
-            let Some(next) = way.segments.next() else { break };
+            let Some(next) = way.traversal.next() else { break };
             // Stretches between segments are empty.
             way.t = next.t0;
             way.segment = next;
@@ -136,7 +124,7 @@ pub struct Place<'s, const N: usize> {
     pub point: Vec3,
     /// Position in medium space.
     pub inside: Vec3,
-    /// Segment with its majorant.
+    /// Segment with the majorant of the medium.
     pub segment: &'s MajorantSegment<N>,
 }
 
@@ -157,7 +145,14 @@ impl<const N: usize> Part<N> {
     }
 }
 
-impl<const N: usize> Place<'_, N> {
+impl<'s, const N: usize> Place<'s, N> {
+    /// Position in one of the media.
+    #[must_use]
+    #[inline(always)]
+    pub fn of(point: Vec3, member: &'s Member<N>) -> Self {
+        Self { point, inside: member.inside, segment: &member.segment }
+    }
+
     /// Extinction and albedo of the control; `None` under rules other than decomposition tracking, and where
     /// the majorant may be exceeded (see the module docs of `event.rs`).
     #[must_use]

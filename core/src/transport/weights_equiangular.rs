@@ -41,9 +41,9 @@ pub struct LightDensities {
     /// steradian.
     pub nee: f32,
     /// Density of the same direction without the choice of the light at the last vertex, times the density of
-    /// the last vertex along its ray and the probability of the light for which it was drawn. Where the
-    /// path's density P has the latter two factors already ([`EquiangularWeights::connect_equiangular`]), they
-    /// are left out.
+    /// the last vertex along its ray, the share of its medium and the probability of the light for which it
+    /// was drawn. Where the path's density P has the latter three factors already
+    /// ([`EquiangularWeights::connect_equiangular`]), they are left out.
     pub eq: f32,
 }
 

@@ -1,12 +1,12 @@
 //! A scene evaluated at the components of one path: the interface of an estimator to the scene.
 
 use super::{
-    Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext, Technique, Vertex,
-    Walk, WalkWeights,
+    Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext, ScatteringPoint,
+    Technique, Vertex, Walk, WalkWeights,
 };
 use crate::light::{Emitter, LobeParts};
 use crate::math::{Ray, Sampler, SideStream};
-use crate::medium::LocalMedium;
+use crate::medium::LocalMedia;
 use crate::scene::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
     LightSelection, LightWalk, NearestSurface, Scene, Tracking,
@@ -14,7 +14,6 @@ use crate::scene::{
 use crate::spectrum::{Components, Radiance, Sampled};
 use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
-use glam::Vec3;
 
 /// Settings shared by all paths of a render.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,41 +124,42 @@ pub struct Arrival<R> {
     pub index: usize,
 }
 
-/// A scene, its medium and its spectra at the components of one path.
-pub struct World<'a, L, C, const N: usize> {
+/// A scene, its media and its spectra at the components of one path.
+pub struct World<'a, M, C, const N: usize> {
     /// The frozen scene.
     pub scene: &'a Scene,
-    /// The medium at the components.
-    pub medium: L,
+    /// The media at the components.
+    pub media: M,
     /// Wavelengths or channels of the path.
     pub components: C,
     /// Settings shared by all paths.
     pub settings: PathSettings,
 }
 
-impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
-    /// The walk through the medium along a ray, up to `t_max`.
+impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
+    /// The walk through the media along a ray, up to `t_max`.
     #[must_use]
     #[inline(always)]
-    pub fn walk(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
-        Walk::new(&self.medium, self.scene, ray, t_max, &self.settings)
+    pub fn walk(&self, ray: &Ray, t_max: f32) -> Walk<'_, M, N> {
+        Walk::new(&self.media, ray, t_max, &self.settings)
     }
 
     /// The walk of a connection along a ray, up to its light at `t_max`.
     #[must_use]
     #[inline(always)]
-    pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, L, N> {
-        Walk::along(&self.medium, self.scene, ray, t_max, EventRule::from(&self.settings), false)
+    pub fn walk_to_light(&self, ray: &Ray, t_max: f32) -> Walk<'_, M, N> {
+        Walk::along(&self.media, ray, t_max, EventRule::from(&self.settings), false)
     }
 
-    /// Radiance that the medium emits at a collision, not yet weighted by the path; `None` where the medium
+    /// Radiance that the medium of a collision emits there, not yet weighted by the path; `None` where it
     /// does not emit.
     #[must_use]
     #[inline]
     pub fn emission_at(&self, collision: &Collision<N>, trace: &mut Trace<'_>) -> Option<C::Radiance> {
-        let emission = self.scene.emission.as_ref()?;
+        let medium = self.scene.medium(collision.medium);
+        let emission = medium.emission.as_ref()?;
         trace.lookups += 1;
-        let kelvin = emission.kelvin_at(self.scene.medium_from_world.transform_point3(collision.point));
+        let kelvin = emission.kelvin_at(medium.medium_from_world().transform_point3(collision.point));
         (kelvin > 0.0).then(|| self.components.blackbody(kelvin) * Sampled::splat(emission.scale))
     }
 
@@ -231,28 +231,34 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
         Some((Vertex::Surface { point: point + normal * lift, normal }, albedo))
     }
 
-    /// A scattering vertex in the medium, on this ray.
+    /// A scattering vertex in a medium, on this ray.
     #[must_use]
     #[inline]
-    pub fn scattering_vertex(&self, point: Vec3, ray: &Ray) -> Vertex {
+    pub fn scattering_vertex(&self, at: ScatteringPoint, ray: &Ray) -> Vertex {
+        let ScatteringPoint { point, medium, .. } = at;
         let by_product = self.settings.directions == DirectionSampling::Product
             || self.settings.light_sampling == LightSampling::Product;
         let lights = &self.scene.lights;
-        let parts = (by_product && !lights.is_empty())
-            .then(|| LobeParts::new(lights, point, ray.direction, self.scene.phase.mean_cosine()));
-        Vertex::Medium { point, omega_in: ray.direction, parts }
+        let parts = (by_product && !lights.is_empty()).then(|| {
+            LobeParts::new(lights, point, ray.direction, self.scene.medium(medium).phase.mean_cosine())
+        });
+        Vertex::Medium { point, medium, omega_in: ray.direction, parts }
     }
 
-    /// Sampler of outgoing directions, by the settings.
+    /// Sampler of the directions out of a vertex, by the settings.
     #[must_use]
     #[inline]
-    pub fn directions(&self) -> DirectionSampler<'_> {
+    pub fn directions(&self, vertex: &Vertex) -> DirectionSampler<'_> {
         let guide = match self.settings.directions {
             DirectionSampling::Phase => None,
             DirectionSampling::TowardsLights => self.scene.lobes.as_ref().map(Guide::Lobes),
             DirectionSampling::Product => Some(Guide::Product),
         };
-        DirectionSampler { phase: &self.scene.phase, guide }
+        let medium = match vertex {
+            Vertex::Medium { medium, .. } => *medium,
+            Vertex::Surface { .. } => 0,
+        };
+        DirectionSampler { phase: &self.scene.medium(medium).phase, guide }
     }
 
     /// Samples the direction in which a path leaves a vertex, multiplies it into the weights and returns the
@@ -273,7 +279,7 @@ impl<L: LocalMedium<N>, C: Components<N>, const N: usize> World<'_, L, C, N> {
     #[inline]
     pub fn sample_outgoing(&self, vertex: &Vertex, trace: &mut Trace<'_>) -> DirectionSample {
         let u = trace.sampler.direction();
-        let outgoing = self.directions().draw(vertex, u);
+        let outgoing = self.directions(vertex).draw(vertex, u);
         trace.sampler.start_vertex();
         let ray = Ray { origin: vertex.point(), direction: outgoing.direction };
         trace.notify(move || Note::Direction { ray, u, value: outgoing.value, density: outgoing.density });

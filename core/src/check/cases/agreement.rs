@@ -166,9 +166,10 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         plume
             .varied("agreement/plume-split-glowing", |d| {
                 let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
-                d.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+                d.medium_mut().emission =
+                    Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
                 d.estimator.distances = DistanceSampling::Decomposition;
-                d.medium.majorant.resolution = Some(32);
+                d.medium_mut().majorant.resolution = Some(32);
             })
             .among(&WITH_DISTANCE_SAMPLING),
         cloud
@@ -180,7 +181,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .varied("agreement/inside-split", |d| {
                 d.estimator.distances = DistanceSampling::Decomposition;
                 d.estimator.absorption = Absorption::Analogue;
-                d.medium.majorant.shared = false;
+                d.medium_mut().majorant.shared = false;
             })
             .among(&FAMILIES_WITH_DISTANCE_SAMPLING),
         plume.varied("agreement/plume-analogue-rgb", |d| {
@@ -192,7 +193,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .varied("agreement/plume-uniform-guided", |d| {
                 d.estimator.wavelengths = WavelengthSampling::Uniform;
                 d.estimator.directions = DirectionSampling::TowardsLights;
-                d.medium.majorant.resolution = Some(1);
+                d.medium_mut().majorant.resolution = Some(1);
             })
             .among(&SEVERAL_COMPONENTS),
         plume
@@ -226,7 +227,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         plume
             .varied("agreement/plume-glowing", |d| {
                 let grid = GridRef { file: "embedded:plume.vdb".into(), grid: Some("temperature".into()) };
-                d.medium.emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
+                d.medium_mut().emission =
+                    Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
                 d.estimator.heuristics.components = Heuristic::Power;
             })
             .among(&SEVERAL_COMPONENTS),
@@ -255,7 +257,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         cloud.varied("agreement/cloud-guided-lattice", |d| {
             d.estimator.directions = DirectionSampling::TowardsLights;
             d.estimator.sampler = SamplerKind::Lattice;
-            d.medium.majorant.resolution = Some(9);
+            d.medium_mut().majorant.resolution = Some(9);
         }),
         cloud,
         inside,

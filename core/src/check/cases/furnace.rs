@@ -88,7 +88,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             homogeneous.varied("furnace/inside", |doc| {
                 doc.camera.origin = [0.1, -0.2, 0.15];
                 doc.camera.fov_deg = 80.0;
-                doc.medium.scale = 8.0;
+                doc.medium_mut().scale = 8.0;
             }),
             Mode::Rgb,
         ),
@@ -105,23 +105,23 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         ("table", PhaseDoc::Tabulated { angle: Angle::Degrees, points: corona, file: String::new() }),
     ] {
         let phased = grid.varied(format!("furnace/{name}"), |doc| {
-            doc.medium.phase = phase;
-            doc.medium.scale = 0.5;
+            doc.medium_mut().phase = phase;
+            doc.medium_mut().scale = 0.5;
         });
         cases.push(in_mode(phased, if name == "two-lobe" { Mode::Spectral } else { Mode::Rgb }));
     }
     for factor in [0.5f32, 1.0, 1.7, 10.0] {
         let loose = grid.varied(format!("furnace/majorant-{factor}"), |doc| {
-            doc.medium.majorant.factor = factor;
+            doc.medium_mut().majorant.factor = factor;
             // Below 1 the variance grows exponentially with the excess: the optical depth stays below one
             // mean free path.
-            doc.medium.scale = if factor < 1.0 { 0.25 } else { 1.0 };
+            doc.medium_mut().scale = if factor < 1.0 { 0.25 } else { 1.0 };
         });
         cases.push(in_mode(loose, Mode::Rgb));
     }
     cases.push(in_mode(
         grid.varied("furnace/shared-majorant-analogue", |doc| {
-            doc.medium.majorant.shared = true;
+            doc.medium_mut().majorant.shared = true;
             doc.estimator.absorption = Absorption::Analogue;
         }),
         Mode::Spectral,

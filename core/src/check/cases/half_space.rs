@@ -75,7 +75,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let rgb = Case::new("half-space/rgb", &rgb, answer)?;
     let grey = rgb.varied("half-space/weighted", |doc| {
         // Without roulette a path ends when it leaves the box, or when its weight underflows.
-        doc.medium.extinction = SpectrumDoc::Constant(1.0);
+        doc.medium_mut().extinction = SpectrumDoc::Constant(1.0);
     });
     let points = Points(&[(400.0, 0.3), (700.0, 0.95)]);
     let table: Vec<f64> = (0..=100).map(|i| escape(f64::from(i) / 100.0)).collect();
@@ -88,7 +88,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let nm = Case::new("half-space/spectral", &nm, Answer::uniform(seen, Layout::WHOLE).within(2e-4))?;
     // The same coefficients in other parametrisations: σa and σs; mean free path and diffuse reflectance.
     let sums = rgb.varied("half-space/absorption-scattering", |doc| {
-        doc.medium.coefficients = Some(CoefficientsDoc::AbsorptionScattering {
+        doc.medium_mut().coefficients = Some(CoefficientsDoc::AbsorptionScattering {
             absorption: SpectrumDoc::Rgb([0.05, 70.0, 2.0]),
             scattering: SpectrumDoc::Rgb([0.95, 30.0, 8.0]),
         });
@@ -96,7 +96,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let colour = [0.6, 0.1, 0.3];
     let coloured = rgb
         .varied("half-space/colour", |doc| {
-            doc.medium.coefficients = Some(CoefficientsDoc::MeanFreePathColour {
+            doc.medium_mut().coefficients = Some(CoefficientsDoc::MeanFreePathColour {
                 mean_free_path: SpectrumDoc::Rgb([1.0, 0.01, 0.1]),
                 colour: SpectrumDoc::Rgb(colour.map(|c| c as f32)),
             });

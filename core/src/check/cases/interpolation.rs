@@ -139,7 +139,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
     let mut cases = [0.5f32, 1.7, 10.0]
         .map(|factor| {
             base.varied(format!("interpolation/majorant-{factor}"), |doc| {
-                doc.medium.majorant.factor = factor;
+                doc.medium_mut().majorant.factor = factor;
             })
         })
         .to_vec();
@@ -173,7 +173,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         .answered(rgb(&rays, sigma));
     // The file has two grids.
     cases.push(vdb.varied("interpolation/vdb", |doc| {
-        doc.medium.density =
+        doc.medium_mut().density =
             DensityDoc::Grid(GridRef { file: "tiny.vdb".into(), grid: Some("density".into()) });
     }));
     Ok(cases)

@@ -8,6 +8,7 @@ mod furnace;
 mod half_space;
 mod interpolation;
 mod lights;
+mod media;
 mod oracle;
 mod single_scattering;
 mod thermal;
@@ -26,6 +27,7 @@ pub static FAMILIES: &[Family] = &[
     single_scattering::FAMILY,
     thermal::FAMILY,
     lights::FAMILY,
+    media::FAMILY,
     half_space::FAMILY,
     agreement::FAMILY,
     oracle::FAMILY,

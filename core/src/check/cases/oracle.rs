@@ -115,7 +115,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         (doc.film.width, doc.film.height) = (32, 32);
         // Independent samples, as the power of the comparison assumes; lattices have a case of their own.
         doc.estimator.sampler = crate::math::SamplerKind::Independent;
-        if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium.density
+        if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium_mut().density
             && !grid.file.starts_with("../")
         {
             grid.file = format!("../{}/{}", o.name, grid.file);

@@ -105,7 +105,7 @@ fn case(name: &str, medium: &str, lights: &str, mode: &str, answer: Answer) -> R
 }
 
 /// Single scattering in a lattice over the unit cube, constant beyond its outermost values.
-fn in_lattice(lattice: &Lattice3, sigma: f64, light: &Disc) -> f64 {
+pub(super) fn in_lattice(lattice: &Lattice3, sigma: f64, light: &Disc) -> f64 {
     let n = DVec3::from_array(lattice.size.map(|n| n as f64));
     let held = |i: i64, n: i64| Some(i.clamp(0, n - 1));
     let density = |p: DVec3| lattice.at((p + 0.5) * n - 0.5, held);
@@ -150,7 +150,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
             .map(|extinction| Cube { extinction, albedo: 0.8 }.single(phase, |_| sun(toward, diameter, 2.0)));
         let answer = Answer::uniform(single, Layout::WHOLE);
         let case = case(&format!("sun-{name}"), medium, &sun_toml(toward, diameter), "rgb", answer)?;
-        let case = case.varied(case.name.clone(), |d| d.medium.phase = doc);
+        let case = case.varied(case.name.clone(), |d| d.medium_mut().phase = doc);
         if name.starts_with("hg") {
             let by_product = case.varied(format!("{}-product", case.name), |d| {
                 d.estimator.light_sampling = LightSampling::Product;
@@ -214,7 +214,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         .with_files(Library::default().with_volume("rough.npy", rough.npy()));
     cases.extend([0.5f32, 1.7, 10.0].map(|factor| {
         let loose = grid.varied(format!("single-scattering/grid-majorant-{factor}"), |doc| {
-            doc.medium.majorant.factor = factor;
+            doc.medium_mut().majorant.factor = factor;
         });
         // A tenfold majorant has ten times the null collisions, which all unidirectional estimators weight
         // alike.

@@ -21,7 +21,7 @@ pub(super) const FAMILY: Family = Family {
 
 const SIGMA: Points = Points(&[(400.0, 0.3), (500.0, 1.5), (560.0, 0.5), (700.0, 1.0)]);
 
-fn planck(lambda_nm: f64, kelvin: f64) -> f64 {
+pub(super) fn planck(lambda_nm: f64, kelvin: f64) -> f64 {
     let occupation = |lambda: f64, t: f64| 1.0 / ((1.438_776_877e7 / (lambda * t)).exp() - 1.0);
     (560.0 / lambda_nm).powi(5) * occupation(lambda_nm, kelvin) / occupation(560.0, 3000.0)
 }
@@ -68,7 +68,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         slab(6000.0)?,
         balance.varied("thermal/balance-analogue", |doc| doc.estimator.absorption = Absorption::Analogue),
         balance.varied("thermal/balance-grey", |doc| {
-            doc.medium.extinction = SpectrumDoc::Constant(3.0);
+            doc.medium_mut().extinction = SpectrumDoc::Constant(3.0);
         }),
         // Expected colour of the surroundings in RGB mode; the case checks that the emission of the medium
         // equals it.

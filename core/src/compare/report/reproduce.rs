@@ -36,6 +36,14 @@ fn keys(doc: &SceneDoc) -> Option<BTreeMap<String, toml::Value>> {
 
 fn flatten(path: String, value: toml::Value, found: &mut BTreeMap<String, toml::Value>) {
     match value {
+        toml::Value::Array(media) if path == "medium" => {
+            let is_only = media.len() == 1;
+            for medium in media {
+                let name = medium.get("name").and_then(toml::Value::as_str).unwrap_or_default();
+                let path = if is_only { path.clone() } else { format!("media.{name}") };
+                flatten(path, medium, found);
+            }
+        }
         toml::Value::Table(table) => {
             for (key, value) in table {
                 let path = if path.is_empty() { key } else { format!("{path}.{key}") };

@@ -119,8 +119,8 @@ mod tests {
         let unknown = Variant { set: &["estimator.magic=3"], ..*analogue };
         assert!(unknown.candidate(&scene).unwrap_err().contains("magic"));
         let mut clamped = scene.clone();
-        clamped.medium.majorant.factor = 0.5;
-        clamped.medium.majorant.when_exceeded = crate::scene::WhenExceeded::Clamp;
+        clamped.medium_mut().majorant.factor = 0.5;
+        clamped.medium_mut().majorant.when_exceeded = crate::scene::WhenExceeded::Clamp;
         assert!(analogue.candidate(&clamped).unwrap_err().contains("clamped"));
     }
 

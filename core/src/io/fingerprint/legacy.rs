@@ -115,34 +115,51 @@ pub(super) fn of_scene(doc: &SceneDoc, content: impl FnMut(&str) -> String) -> O
             && !COUNTED.contains(&key.path)
             && !leaf.is_default()
     });
-    if unknown {
+    if unknown || doc.media.len() != 1 {
         return None;
     }
-    let mut written: DocumentMut = text_today(doc, content).parse().ok()?;
+    let mut written: DocumentMut = text_today(doc, content)?.parse().ok()?;
     restored_values(written.as_table_mut(), "")?;
     Some(of_bytes(written.to_string().as_bytes()))
 }
 
-/// Text that version 0.1 would have hashed, but with current keys and defaults.
-fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> String {
+/// Text that version 0.1 would have hashed, but with current keys and defaults; `None` unless there is one
+/// medium.
+fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> Option<String> {
     // Sections in the order of version 0.1; keys that were not hashed have their values of version 0.1.
     let mut part = SceneDoc {
         camera: doc.camera.clone(),
         film: doc.film.clone(),
-        medium: doc.medium.clone(),
+        media: vec![doc.medium().clone()],
         lights: doc.lights.clone(),
         objects: doc.objects.clone(),
         render: RenderDoc { spp: Some(1024), ..RenderDoc::default() },
         ..SceneDoc::default()
     };
-    part.medium.majorant = MajorantDoc::default();
-    part.medium.interpolation = Interpolation::default();
+    part.medium_mut().majorant = MajorantDoc::default();
+    part.medium_mut().interpolation = Interpolation::default();
     part.estimator.mode = doc.estimator.mode;
     part.estimator.max_depth = doc.estimator.max_depth;
     for file in part.files_mut() {
         *file = content(file);
     }
-    scene_file::to_toml(&part)
+    in_format_1(&scene_file::to_toml(&part))
+}
+
+/// The text of a scene with one medium in format 1, which has a table `[medium]` without the keys that several
+/// media need.
+fn in_format_1(text: &str) -> Option<String> {
+    let mut written: DocumentMut = text.parse().ok()?;
+    let media = written.remove("medium")?.into_array_of_tables().ok()?;
+    let mut medium = media.iter().next()?.clone();
+    for key in ["name", "enabled", "within"] {
+        medium.remove(key);
+    }
+    written.insert("medium", Item::Table(medium));
+    if let Some(Item::Value(version)) = written.get_mut("majorant") {
+        *version = Value::from(1).decorated(" ", "");
+    }
+    Some(written.to_string())
 }
 
 /// Restores the values of version 0.1 for keys that were not hashed, and removes newer keys.
@@ -202,27 +219,27 @@ mod tests {
             ..SceneDoc::default()
         };
         let points = vec![ControlPoint { lambda_nm: 500.0, value: 0.5 }];
-        full.medium.extinction = SpectrumDoc::Points { points, outside: Outside::Zero };
-        full.medium.albedo = SpectrumDoc::Rgb([0.1, 0.2, 0.3]);
-        full.medium.density = DensityDoc::Grid(grid());
-        full.medium.albedo_grid = Some(grid());
-        full.medium.emission = Some(EmissionDoc { temperature: Some(grid()), kelvin: 2.0, scale: 3.0 });
-        full.medium.placement =
+        full.medium_mut().extinction = SpectrumDoc::Points { points, outside: Outside::Zero };
+        full.medium_mut().albedo = SpectrumDoc::Rgb([0.1, 0.2, 0.3]);
+        full.medium_mut().density = DensityDoc::Grid(grid());
+        full.medium_mut().albedo_grid = Some(grid());
+        full.medium_mut().emission = Some(EmissionDoc { temperature: Some(grid()), kelvin: 2.0, scale: 3.0 });
+        full.medium_mut().placement =
             PlacementDoc { fit: Some(2.0), matrix: Some([[0.5; 4]; 3]), ..PlacementDoc::default() };
         full.estimator.max_depth = Some(3);
         let mut documents: Vec<SceneDoc> = PhaseDoc::templates()
             .into_iter()
             .map(|phase| {
                 let mut doc = full.clone();
-                doc.medium.phase = phase;
+                doc.medium_mut().phase = phase;
                 doc
             })
             .collect();
         for kind in [CoefficientsKind::AbsorptionScattering, CoefficientsKind::MeanFreePathColour] {
             let mut doc = full.clone();
-            doc.medium = doc.medium.given_by(kind, 0.0);
+            *doc.medium_mut() = doc.medium().given_by(kind, 0.0);
             assert!(matches!(
-                doc.medium.coefficients,
+                doc.medium().coefficients,
                 Some(
                     CoefficientsDoc::AbsorptionScattering { .. } | CoefficientsDoc::MeanFreePathColour { .. }
                 )
@@ -238,7 +255,7 @@ mod tests {
     #[test]
     fn the_text_of_version_0_1_stands_as_it_was() {
         for doc in documents() {
-            let text = text_today(&doc, str::to_owned);
+            let text = text_today(&doc, str::to_owned).unwrap();
             assert_eq!(thawed(&text), text);
             // A changed default, and new keys and tables.
             let later = text.replacen("absorption = \"weighted\"", "absorption = \"analogue\"", 1);

@@ -130,7 +130,7 @@ mod tests {
     fn content_counts_and_names_do_not() {
         let with = |file: &str| {
             let mut doc = SceneDoc::default();
-            doc.medium.density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
+            doc.medium_mut().density = DensityDoc::Grid(GridRef { file: file.into(), grid: None });
             doc
         };
         let mut library = Library::default().with_volume("a.vdb", *b"cloud").with_volume("b.vdb", *b"cloud");
@@ -143,10 +143,10 @@ mod tests {
         let mut edited = with("a.vdb");
         edited.estimator.id = "nee".into();
         edited.render.seed = 9;
-        edited.medium.majorant.factor = 2.0;
+        edited.medium_mut().majorant.factor = 2.0;
         assert_eq!(library.fingerprint(&edited), library.fingerprint(&with("a.vdb")));
         assert_ne!(library.sample_fingerprint(&edited), library.sample_fingerprint(&with("a.vdb")));
-        edited.medium.scale = 2.0;
+        edited.medium_mut().scale = 2.0;
         assert_ne!(library.fingerprint(&edited), library.fingerprint(&with("a.vdb")));
     }
 
@@ -162,7 +162,7 @@ mod tests {
         assert!(same(|d| d.render.threads = Some(3)) && same(|d| d.render.spp = None));
         assert!(same(|d| d.view.exposure_ev = 2.0) && same(|d| d.title = "another".into()));
         assert!(!same(|d| d.render.seed = 1) && !same(|d| d.estimator.roulette_depth = None));
-        assert!(!same(|d| d.medium.majorant.shared = true) && !same(|d| d.camera.fov_deg = 30.0));
+        assert!(!same(|d| d.medium_mut().majorant.shared = true) && !same(|d| d.camera.fov_deg = 30.0));
     }
 
     #[test]
@@ -206,13 +206,13 @@ mod tests {
         };
         let plain = name(|_| ());
         assert!(plain.is_some());
-        assert_eq!(name(|d| d.medium.majorant.factor = 0.5), plain);
+        assert_eq!(name(|d| d.medium_mut().majorant.factor = 0.5), plain);
         assert_eq!(
             name(|d| d.estimator = crate::scene::EstimatorDoc { id: "nee".into(), ..d.estimator.clone() }),
             plain
         );
         assert_eq!(name(|d| (d.title, d.render.seed, d.view.exposure_ev) = ("x".into(), 3, 2.0)), plain);
-        assert_ne!(name(|d| d.medium.scale = 2.0), plain);
+        assert_ne!(name(|d| d.medium_mut().scale = 2.0), plain);
         assert_ne!(name(|d| d.estimator.max_depth = Some(2)), plain);
         assert_ne!(name(|d| d.lights.clear()), plain);
     }

@@ -1,6 +1,6 @@
 //! Editable comparison: additional views of a scene, their budget, reference and display.
 
-use super::{CameraDoc, EstimatorDoc, MajorantDoc, SceneDoc, ViewDoc};
+use super::{CameraDoc, EstimatorDoc, MajorantDoc, MediumDoc, SceneDoc, ViewDoc};
 use serde::{Deserialize, Serialize};
 
 /// Maximum number of views of a scene, including the scene's own.
@@ -55,8 +55,11 @@ impl Default for MeasureId {
 pub struct ViewOverrides {
     /// Estimator of light transport.
     pub estimator: EstimatorDoc,
-    /// Majorant that free flights are sampled from.
+    /// Majorant that free flights are sampled from, in a scene with one medium.
     pub majorant: MajorantDoc,
+    /// Settings of media in a scene with several. A medium that is not listed has the scene's.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub media: Vec<MediumOverrides>,
     /// Seed of the random numbers.
     pub seed: u64,
     /// Camera of this view. Absent: the scene's.
@@ -65,6 +68,41 @@ pub struct ViewOverrides {
     /// Exposure and tone curve of this view. Absent: the scene's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<ViewDoc>,
+}
+
+/// Settings in which a medium of a view differs from the scene's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MediumOverrides {
+    /// Name of the medium.
+    pub name: String,
+    /// Majorant that free flights are sampled from.
+    pub majorant: MajorantDoc,
+}
+
+impl ViewOverrides {
+    /// The majorants of these media in this view; `None` where they are the scene's.
+    fn majorant_of(&self, name: &str, is_only: bool) -> Option<&MajorantDoc> {
+        if is_only {
+            return Some(&self.majorant);
+        }
+        self.media.iter().find(|own| own.name == name).map(|own| &own.majorant)
+    }
+
+    /// Records the majorants of all media in this view.
+    fn set_majorants(&mut self, media: &[MediumDoc]) {
+        (self.majorant, self.media) = (MajorantDoc::default(), Vec::new());
+        match media {
+            [only] => self.majorant.clone_from(&only.majorant),
+            several => {
+                let own = |medium: &MediumDoc| MediumOverrides {
+                    name: medium.name.clone(),
+                    majorant: medium.majorant.clone(),
+                };
+                self.media.extend(several.iter().map(own));
+            }
+        }
+    }
 }
 
 /// Quantity of which every view gets the same amount.
@@ -148,6 +186,16 @@ impl From<Written> for ReferenceDoc {
     }
 }
 
+/// Index of the medium before an edit that each medium after it corresponds to: the one of the same name, or,
+/// where only names have changed, the one at the same place.
+fn counterparts(before: &[MediumDoc], after: &[MediumDoc]) -> Vec<Option<usize>> {
+    let by_name = |medium: &MediumDoc| before.iter().position(|b| b.name == medium.name);
+    let by_place = |(index, medium): (usize, &MediumDoc)| {
+        by_name(medium).or((before.len() == after.len()).then_some(index))
+    };
+    after.iter().enumerate().map(by_place).collect()
+}
+
 /// Seed of a rendered reference; no view has it by default.
 const REFERENCE_SEED: u64 = 0x5eed_0000;
 
@@ -186,7 +234,7 @@ impl SceneDoc {
         }
         let own = self.compare.views.get(view - 1)?;
         doc.estimator.clone_from(&own.estimator);
-        doc.medium.majorant.clone_from(&own.majorant);
+        doc.set_majorants(own);
         doc.render.seed = own.seed;
         if let Some(camera) = &own.camera {
             doc.camera.clone_from(camera);
@@ -195,6 +243,40 @@ impl SceneDoc {
             doc.view.clone_from(view);
         }
         Some(doc)
+    }
+
+    /// Sets the majorants of all media to those of a view.
+    pub fn set_majorants(&mut self, own: &ViewOverrides) {
+        let is_only = self.media.len() == 1;
+        for medium in &mut self.media {
+            if let Some(majorant) = own.majorant_of(&medium.name, is_only) {
+                medium.majorant.clone_from(majorant);
+            }
+        }
+    }
+
+    /// The views with the majorants that they have, addressed by the names of media that were renamed, added
+    /// or removed.
+    fn views_with_media(&self, media: &[MediumDoc]) -> Vec<ViewOverrides> {
+        let names = |media: &[MediumDoc]| media.iter().map(|m| m.name.clone()).collect::<Vec<_>>();
+        if names(&self.media) == names(media) {
+            return self.compare.views.clone();
+        }
+        let counterparts = counterparts(&self.media, media);
+        let of_view = |own: &ViewOverrides| {
+            let mut media = media.to_vec();
+            for (medium, before) in media.iter_mut().zip(&counterparts) {
+                let before = before.map(|before| &self.media[before]);
+                let known = before.and_then(|m| own.majorant_of(&m.name, self.media.len() == 1));
+                if let Some(majorant) = known {
+                    medium.majorant.clone_from(majorant);
+                }
+            }
+            let mut own = own.clone();
+            own.set_majorants(&media);
+            own
+        };
+        self.compare.views.iter().map(of_view).collect()
     }
 
     /// Documents of all views, in order.
@@ -208,15 +290,21 @@ impl SceneDoc {
     #[must_use]
     pub fn with_view_doc(&self, view: usize, edited: &Self) -> Self {
         let mut doc = Self { compare: self.compare.clone(), window: self.window.clone(), ..edited.clone() };
+        doc.compare.views = self.views_with_media(&edited.media);
         if view == 0 {
             return doc;
         }
         doc.estimator.clone_from(&self.estimator);
-        doc.medium.majorant.clone_from(&self.medium.majorant);
+        let counterparts = counterparts(&self.media, &edited.media);
+        for (medium, before) in doc.media.iter_mut().zip(counterparts) {
+            if let Some(before) = before {
+                medium.majorant.clone_from(&self.media[before].majorant);
+            }
+        }
         doc.render.seed = self.render.seed;
         if let Some(own) = doc.compare.views.get_mut(view - 1) {
             own.estimator.clone_from(&edited.estimator);
-            own.majorant.clone_from(&edited.medium.majorant);
+            own.set_majorants(&edited.media);
             own.seed = edited.render.seed;
             if let Some(camera) = &mut own.camera {
                 camera.clone_from(&edited.camera);
@@ -234,13 +322,15 @@ impl SceneDoc {
     #[must_use]
     pub fn view_overrides(&self, view: usize) -> Option<ViewOverrides> {
         match view {
-            0 => Some(ViewOverrides {
-                estimator: self.estimator.clone(),
-                majorant: self.medium.majorant.clone(),
-                seed: self.render.seed,
-                camera: None,
-                view: None,
-            }),
+            0 => {
+                let mut own = ViewOverrides {
+                    estimator: self.estimator.clone(),
+                    seed: self.render.seed,
+                    ..ViewOverrides::default()
+                };
+                own.set_majorants(&self.media);
+                Some(own)
+            }
             _ => self.compare.views.get(view - 1).cloned(),
         }
     }
@@ -262,7 +352,9 @@ impl SceneDoc {
         let mut doc = self.view_doc(0)?.unbiased();
         doc.estimator.id.clone_from(estimator);
         doc.estimator.absorption = super::Absorption::Weighted;
-        doc.medium.majorant = MajorantDoc::default();
+        for medium in &mut doc.media {
+            medium.majorant = MajorantDoc::default();
+        }
         doc.render.seed = REFERENCE_SEED;
         (doc.render.spp, doc.render.relative_error) = (*spp, *relative_error);
         (doc.render.seconds, doc.render.cpu_seconds) = (None, None);
@@ -289,7 +381,7 @@ mod tests {
         let doc = two_views();
         let b = doc.view_doc(1).unwrap();
         assert_eq!((b.estimator.id.as_str(), b.render.seed), ("nee", 1));
-        assert_eq!(b.medium, doc.medium);
+        assert_eq!(b.media, doc.media);
         assert_eq!(doc.view_doc(2), None);
         assert_eq!(doc.view_docs().len(), 2);
     }
@@ -298,13 +390,16 @@ mod tests {
     fn an_edit_of_a_view_stays_in_it_and_one_of_the_scene_reaches_all() {
         let doc = two_views();
         let mut edited = doc.view_doc(1).unwrap();
-        edited.medium.majorant.factor = 3.0;
+        edited.medium_mut().majorant.factor = 3.0;
         edited.estimator.mode = Mode::Rgb;
-        edited.medium.scale = 7.0;
+        edited.medium_mut().scale = 7.0;
         let doc = doc.with_view_doc(1, &edited);
         assert_eq!(doc.view_doc(1).unwrap(), edited);
         let a = doc.view_doc(0).unwrap();
-        assert_eq!((a.medium.majorant.factor, a.estimator.mode, a.medium.scale), (1.0, Mode::Spectral, 7.0));
+        assert_eq!(
+            (a.medium().majorant.factor, a.estimator.mode, a.medium().scale),
+            (1.0, Mode::Spectral, 7.0)
+        );
         // A view's own camera is independent of the scene's.
         let mut doc = doc;
         doc.compare.views[0].camera = Some(doc.camera.clone());
@@ -317,6 +412,38 @@ mod tests {
         );
     }
 
+    /// A view keeps its own majorants while media are added, renamed, reordered and removed.
+    #[test]
+    fn majorants_of_a_view_follow_their_media() {
+        let mut doc = two_views();
+        doc.compare.views[0].majorant.factor = 3.0;
+        let mut edited = doc.view_doc(0).unwrap();
+        edited.media.push(MediumDoc { name: "fog".into(), ..MediumDoc::default() });
+        let doc = doc.with_view_doc(0, &edited);
+        let factors = |doc: &SceneDoc, view| {
+            let doc = doc.view_doc(view).unwrap();
+            doc.media.iter().map(|m| (m.name.clone(), m.majorant.factor)).collect::<Vec<_>>()
+        };
+        let named = |pairs: &[(&str, f32)]| {
+            pairs.iter().map(|(name, factor)| ((*name).to_owned(), *factor)).collect::<Vec<_>>()
+        };
+        assert_eq!(factors(&doc, 1), named(&[("medium", 3.0), ("fog", 1.0)]));
+
+        let mut edited = doc.view_doc(1).unwrap();
+        (edited.media[0].name, edited.media[1].majorant.factor) = ("cloud".into(), 2.0);
+        let doc = doc.with_view_doc(1, &edited);
+        assert_eq!(factors(&doc, 1), named(&[("cloud", 3.0), ("fog", 2.0)]));
+        assert_eq!(factors(&doc, 0), named(&[("cloud", 1.0), ("fog", 1.0)]));
+
+        let mut edited = doc.view_doc(0).unwrap();
+        edited.media.reverse();
+        let doc = doc.with_view_doc(0, &edited);
+        assert_eq!(factors(&doc, 1), named(&[("fog", 2.0), ("cloud", 3.0)]));
+        edited.media.remove(0);
+        let doc = doc.with_view_doc(0, &edited);
+        assert_eq!(factors(&doc, 1), named(&[("cloud", 3.0)]));
+    }
+
     #[test]
     fn views_converge_to_the_same_image_unless_mode_depth_or_scene_differ() {
         let doc = two_views();
@@ -326,12 +453,12 @@ mod tests {
             b.target_part() == doc.target_part()
         };
         assert!(target(|_| ()));
-        assert!(target(|d| d.medium.majorant.when_exceeded = WhenExceeded::Clamp));
+        assert!(target(|d| d.medium_mut().majorant.when_exceeded = WhenExceeded::Clamp));
         assert!(target(|d| d.estimator.roulette_depth = Some(3)));
         assert!(!target(|d| d.estimator.mode = Mode::Rgb));
         assert!(!target(|d| d.estimator.max_depth = Some(2)));
         assert!(!target(|d| d.camera.fov_deg += 1.0));
-        assert!(!target(|d| d.medium.scale *= 2.0));
+        assert!(!target(|d| d.medium_mut().scale *= 2.0));
     }
 
     #[test]
@@ -348,8 +475,8 @@ mod tests {
         reference.estimator.transmittance = "marching".into();
         reference.estimator.bookkeeping = crate::scene::Bookkeeping::ApartF32;
         reference.estimator.fault = crate::scene::Fault::NullCap;
-        reference.medium.majorant.factor = 0.5;
-        reference.medium.majorant.when_exceeded = WhenExceeded::Clamp;
+        reference.medium_mut().majorant.factor = 0.5;
+        reference.medium_mut().majorant.when_exceeded = WhenExceeded::Clamp;
         assert_eq!(reference.reference_doc(), Some(made));
     }
 }

@@ -4,14 +4,27 @@ use super::CoefficientsDoc;
 use crate::medium::{Interpolation, MajorantDoc, Precision};
 use crate::phase::PhaseDoc;
 use crate::spectrum::SpectrumDoc;
-use serde::{Deserialize, Serialize};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
 
-/// A participating medium in an index-matched box.
+/// A participating medium with an index-matched boundary.
 ///
-/// Extinction is `σt(x, λ) = scale · density(x) · extinction(λ)`, per scene unit.
+/// Extinction is `σt(x, λ) = scale · density(x) · extinction(λ)`, per scene unit. Where media overlap, their
+/// coefficients add.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MediumDoc {
+    /// Name, unique among the media of a scene.
+    pub name: String,
+    /// Whether the medium is part of the scene.
+    pub enabled: bool,
+    /// Region that the medium fills.
+    pub within: Within,
+    /// Radius about the origin to which a medium within `everywhere` reaches. Absent: to infinity.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extent: Option<f32>,
     /// Multiplier of the density.
     pub scale: f32,
     /// Spectrum of the extinction at density 1, per scene unit.
@@ -41,9 +54,64 @@ pub struct MediumDoc {
     pub emission: Option<EmissionDoc>,
 }
 
+/// Name of a medium that has none in its file.
+const DEFAULT_NAME: &str = "medium";
+
+/// Region that a medium fills.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Within {
+    /// The box of its grid, or a unit cube for a uniform density, with its placement.
+    #[default]
+    Grid,
+    /// All of space, or a ball about the origin if an extent is given; for a uniform density.
+    Everywhere,
+}
+
+impl MediumDoc {
+    /// Returns whether the coefficients are constant in space.
+    #[must_use]
+    pub fn is_uniform(&self) -> bool {
+        matches!(self.density, DensityDoc::Uniform {}) && self.albedo_grid.is_none()
+    }
+
+    /// Returns whether the medium reaches to infinity.
+    #[must_use]
+    pub fn is_unbounded(&self) -> bool {
+        self.within == Within::Everywhere && self.extent.is_none()
+    }
+}
+
+/// Reads the media of a scene: a list, or a single table as in files of version 1.
+pub(super) fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<MediumDoc>, D::Error> {
+    struct Media;
+
+    impl<'de> Visitor<'de> for Media {
+        type Value = Vec<MediumDoc>;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("[[medium]], a list of media")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+            MediumDoc::deserialize(MapAccessDeserializer::new(map)).map(|medium| vec![medium])
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+            Vec::deserialize(SeqAccessDeserializer::new(seq))
+        }
+    }
+
+    from.deserialize_any(Media)
+}
+
 impl Default for MediumDoc {
     fn default() -> Self {
         Self {
+            name: DEFAULT_NAME.into(),
+            enabled: true,
+            within: Within::Grid,
+            extent: None,
             scale: 1.0,
             extinction: SpectrumDoc::Constant(4.0),
             albedo: SpectrumDoc::Constant(0.9),

@@ -19,21 +19,25 @@ pub use crate::medium::{MajorantDoc, WhenExceeded};
 pub use crate::phase::{Angle, PhaseDoc};
 pub use camera::{CameraDoc, FilmDoc};
 pub use coefficients::{CoefficientsDoc, CoefficientsKind, MEAN_FREE_PATHS};
-pub use compare::{CompareDoc, Fairness, MAX_VIEWS, MeasureId, ReferenceDoc, ViewOverrides};
+pub use compare::{CompareDoc, Fairness, MAX_VIEWS, MeasureId, MediumOverrides, ReferenceDoc, ViewOverrides};
 pub use estimator::{
     Absorption, Bookkeeping, DirectionSampling, DistanceSampling, EstimatorDoc, Heuristic, Heuristics,
     LightSampling, LightWalk, Mode, Tracking,
 };
 pub use fault::{Fault, FaultEntry};
 pub use light::LightDoc;
-pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc};
+pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc, Within};
 pub use object::ObjectDoc;
 pub use render::{Limits, RenderDoc};
 
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
-/// Version of the scene format that this program writes.
-pub const FORMAT_VERSION: u32 = 1;
+/// Version of the scene format that this program writes. Version 1 has a single medium, in a table `[medium]`.
+pub const FORMAT_VERSION: u32 = 2;
+
+/// Maximum number of media of a scene.
+pub const MAX_MEDIA: usize = 256;
 
 /// A complete scene, as edited and as stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,9 +57,14 @@ pub struct SceneDoc {
     /// Image size.
     #[serde(default)]
     pub film: FilmDoc,
-    /// Medium.
-    #[serde(default)]
-    pub medium: MediumDoc,
+    /// Media. Where they overlap, their coefficients add.
+    #[serde(
+        rename = "medium",
+        default,
+        deserialize_with = "medium::one_or_several",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    pub media: Vec<MediumDoc>,
     /// Light sources.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<LightDoc>,
@@ -91,7 +100,7 @@ impl Default for SceneDoc {
             note: String::new(),
             camera: CameraDoc::default(),
             film: FilmDoc::default(),
-            medium: MediumDoc::default(),
+            media: vec![MediumDoc::default()],
             lights: vec![LightDoc::default()],
             objects: Vec::new(),
             estimator: EstimatorDoc::default(),
@@ -104,22 +113,82 @@ impl Default for SceneDoc {
 }
 
 impl SceneDoc {
+    /// The first medium, which is the only one in most scenes; a default medium if there is none.
+    #[must_use]
+    pub fn medium(&self) -> &MediumDoc {
+        static NONE: LazyLock<MediumDoc> = LazyLock::new(MediumDoc::default);
+        self.media.first().unwrap_or(&NONE)
+    }
+
+    /// The first medium, to be edited; a default medium is added if there is none.
+    pub fn medium_mut(&mut self) -> &mut MediumDoc {
+        if self.media.is_empty() {
+            self.media.push(MediumDoc::default());
+        }
+        &mut self.media[0]
+    }
+
+    /// The medium at an index, or the last one if there are fewer; a default medium if there is none.
+    #[must_use]
+    pub fn medium_at(&self, index: usize) -> &MediumDoc {
+        self.media.get(index).or(self.media.last()).unwrap_or_else(|| self.medium())
+    }
+
+    /// As [`Self::medium_at`], to be edited; a default medium is added if there is none.
+    pub fn medium_at_mut(&mut self, index: usize) -> &mut MediumDoc {
+        let index = index.min(self.media.len().saturating_sub(1));
+        if index == 0 { self.medium_mut() } else { &mut self.media[index] }
+    }
+
+    /// A name for a new medium that no other medium has: `base`, or `base 2`, `base 3`, …
+    #[must_use]
+    pub fn free_medium_name(&self, base: &str) -> String {
+        let taken = |name: &str| self.media.iter().any(|medium| medium.name == name);
+        let numbered = (2..).map(|n| format!("{base} {n}"));
+        std::iter::once(base.to_owned()).chain(numbered).find(|name| !taken(name)).unwrap_or_default()
+    }
+
+    /// Media that are part of the scene.
+    pub fn enabled_media(&self) -> impl Iterator<Item = &MediumDoc> {
+        self.media.iter().filter(|medium| medium.enabled)
+    }
+
+    /// Key of a medium in messages: `medium`, or `medium[1]` where there are several.
+    #[must_use]
+    pub fn medium_path(&self, index: usize) -> String {
+        if self.media.len() == 1 { "medium".into() } else { format!("medium[{index}]") }
+    }
+
+    /// Converts a document that was read from a file to the current version.
+    #[must_use]
+    pub fn upgraded(mut self) -> Self {
+        if self.majorant == 1 {
+            self.majorant = FORMAT_VERSION;
+            // In version 1 a file without a medium has a default one.
+            if self.media.is_empty() {
+                self.media.push(MediumDoc::default());
+            }
+        }
+        self.with_window_keys_moved()
+    }
+
     /// Names of all files that the document refers to, including embedded ones. Empty names, still to be
     /// filled in, are omitted.
     pub fn files_mut(&mut self) -> Vec<&mut String> {
         let mut files = Vec::new();
-        if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut self.medium.density {
-            files.push(&mut grid.file);
-        }
-        if let Some(grid) = &mut self.medium.albedo_grid {
-            files.push(&mut grid.file);
-        }
-        let emission = self.medium.emission.as_mut();
-        if let Some(grid) = emission.and_then(|e| e.temperature.as_mut()) {
-            files.push(&mut grid.file);
-        }
-        if let PhaseDoc::Tabulated { file, .. } = &mut self.medium.phase {
-            files.push(file);
+        for medium in &mut self.media {
+            if let DensityDoc::Grid(grid) | DensityDoc::RgbGrid(grid) = &mut medium.density {
+                files.push(&mut grid.file);
+            }
+            if let Some(grid) = &mut medium.albedo_grid {
+                files.push(&mut grid.file);
+            }
+            if let Some(grid) = medium.emission.as_mut().and_then(|emission| emission.temperature.as_mut()) {
+                files.push(&mut grid.file);
+            }
+            if let PhaseDoc::Tabulated { file, .. } = &mut medium.phase {
+                files.push(file);
+            }
         }
         for light in &mut self.lights {
             if let LightDoc::EnvironmentMap { file, .. } = light {

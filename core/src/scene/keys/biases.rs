@@ -1,6 +1,6 @@
 //! Rules by which keys bias the estimate, and the corresponding unbiased values.
 
-use crate::scene::{Bookkeeping, DensityDoc, Fault, SceneDoc, WhenExceeded};
+use crate::scene::{Bookkeeping, Fault, MediumDoc, SceneDoc, WhenExceeded};
 use crate::transmittance::TransmittanceKind;
 
 /// Rule by which a key biases the estimate.
@@ -15,28 +15,41 @@ pub struct Bias {
 }
 
 pub(super) static FACTOR: Bias = Bias {
-    when: "below 1 where `when_exceeded` is not `weighted`, and under mitsuba2-volpath wherever the medium is a grid",
+    when: "below 1 where `when_exceeded` is not `weighted`, and under mitsuba2-volpath wherever the medium is not a single uniform one",
     holds: |doc| {
-        let uniform =
-            matches!(doc.medium.density, DensityDoc::Uniform {}) && doc.medium.albedo_grid.is_none();
-        doc.medium.majorant.factor < 1.0
-            && (doc.medium.majorant.when_exceeded != WhenExceeded::Weighted
-                || doc.estimator.id == "mitsuba2-volpath" && !uniform)
+        let uniform = doc.enabled_media().count() == 1 && doc.enabled_media().all(MediumDoc::is_uniform);
+        let tracked = doc.estimator.id == "mitsuba2-volpath" && !uniform;
+        doc.enabled_media().any(|medium| {
+            let majorant = &medium.majorant;
+            majorant.factor < 1.0 && (majorant.when_exceeded != WhenExceeded::Weighted || tracked)
+        })
     },
-    undo: |doc| doc.medium.majorant.factor = doc.medium.majorant.factor.max(1.0),
+    undo: |doc| {
+        for medium in &mut doc.media {
+            medium.majorant.factor = medium.majorant.factor.max(1.0);
+        }
+    },
 };
 
 pub(super) static CLAMPED: Bias = Bias {
     when: "`clamp`, and `progressive` until bounds have been raised, where `factor` is below 1",
     holds: |doc| {
-        doc.medium.majorant.factor < 1.0 && doc.medium.majorant.when_exceeded != WhenExceeded::Weighted
+        doc.enabled_media()
+            .map(|medium| &medium.majorant)
+            .any(|majorant| majorant.factor < 1.0 && majorant.when_exceeded != WhenExceeded::Weighted)
     },
-    undo: |doc| doc.medium.majorant.when_exceeded = WhenExceeded::Weighted,
+    undo: |doc| {
+        for medium in &mut doc.media {
+            medium.majorant.when_exceeded = WhenExceeded::Weighted;
+        }
+    },
 };
 
 pub(super) static ESTIMATOR: Bias = Bias {
-    when: "mitsuba2-volpath where the medium emits",
-    holds: |doc| doc.estimator.id == "mitsuba2-volpath" && doc.medium.emission.is_some(),
+    when: "mitsuba2-volpath where a medium emits",
+    holds: |doc| {
+        doc.estimator.id == "mitsuba2-volpath" && doc.enabled_media().any(|medium| medium.emission.is_some())
+    },
     // The estimator of a reference is a choice: one that is biased nevertheless is rejected.
     undo: |_| (),
 };

@@ -9,7 +9,7 @@ const SIDE: Type = Type::Integer(Range::closed(1.0, MAX_PIXELS as f64));
 pub(super) const KEYS: &[Key] = &[
     Key::new(
         "majorant",
-        Type::Integer(Range::closed(1.0, 1.0)),
+        Type::Integer(Range::closed(1.0, 2.0)),
         Required,
         "Format",
         "Version of the file format",

@@ -83,9 +83,11 @@ pub(super) const KEYS: &[Key] = &[
 ];
 
 /// Sections of a view, with the corresponding sections of the scene.
-const OWN: [(&str, &str); 5] = [
+const OWN: [(&str, &str); 7] = [
     ("estimator", "estimator"),
     ("majorant", "medium.majorant"),
+    ("media.*.name", "medium.name"),
+    ("media.*.majorant", "medium.majorant"),
     ("seed", "render.seed"),
     ("camera", "camera"),
     ("view", "view"),

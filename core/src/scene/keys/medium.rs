@@ -14,6 +14,29 @@ const BY_DEFAULT: Default = Absent("`density`, else the first readable grid");
 
 pub(super) const KEYS: &[Key] = &[
     Key::new(
+        "medium.name",
+        Type::Text,
+        Is("\"medium\""),
+        "Name",
+        "Name of the medium, unique in the scene; `media.NAME.KEY` addresses a key of it",
+    )
+    .affects(Affects::View),
+    Key::new("medium.enabled", Type::Bool, Is("true"), "Enabled", "Whether the medium is part of the scene"),
+    Key::new(
+        "medium.within",
+        Type::Choice(&["grid", "everywhere"]),
+        Is("\"grid\""),
+        "Within",
+        "Region that the medium fills: the box of its grid (a unit cube for a uniform density), or all of space",
+    ),
+    Key::new(
+        "medium.extent",
+        Type::Number(LENGTH),
+        Absent("to infinity"),
+        "Extent",
+        "Radius about the origin to which a medium within `everywhere` reaches, scene units",
+    ),
+    Key::new(
         "medium.scale",
         Type::Number(Range::closed(0.0, 1e6)),
         Is("1.0"),

@@ -31,6 +31,9 @@ impl Leaf {
     }
 }
 
+/// Section of the media, a list whose keys have no index.
+const MEDIUM: &str = "medium";
+
 /// Indices of keys in the table, by path.
 fn places() -> &'static HashMap<&'static str, Vec<usize>> {
     static PLACES: OnceLock<HashMap<&'static str, Vec<usize>>> = OnceLock::new();
@@ -53,7 +56,8 @@ pub fn leaves(doc: &SceneDoc) -> Result<Vec<Leaf>, toml::ser::Error> {
         walk(table, "", "", &mut found);
     }
     let first = |leaf: &Leaf| {
-        let list = leaf.key().path.split_once(".*").map(|(list, _)| list);
+        let of_media = leaf.path.starts_with("medium[").then_some(MEDIUM);
+        let list = of_media.or(leaf.key().path.split_once(".*").map(|(list, _)| list));
         let section = list.and_then(|list| all().iter().position(|key| key.path.starts_with(list)));
         let number =
             leaf.path.split_once('[').and_then(|(_, rest)| rest.split_once(']')?.0.parse::<usize>().ok());
@@ -75,6 +79,16 @@ fn walk(table: Table, pattern: &str, path: &str, found: &mut Vec<Leaf>) {
         }
         match value {
             Value::Table(inner) => walk(inner, &pattern, &path, found),
+            // Keys of media have no index: most scenes have one medium.
+            Value::Array(entries) if pattern == MEDIUM => {
+                let is_only = entries.len() == 1;
+                for (number, entry) in entries.into_iter().enumerate() {
+                    let path = if is_only { path.clone() } else { format!("{path}[{number}]") };
+                    if let Value::Table(entry) = entry {
+                        walk(entry, MEDIUM, &path, found);
+                    }
+                }
+            }
             Value::Array(entries) => {
                 for (number, entry) in entries.into_iter().enumerate() {
                     if let Value::Table(entry) = entry {

@@ -2,7 +2,9 @@
 
 use super::{Affects, Default, Key, Range, Type, all, changed, leaves};
 use crate::estimator::{self, REGISTRY};
-use crate::scene::{Bookkeeping, DensityDoc, EmissionDoc, Fault, SceneDoc, WhenExceeded, validate};
+use crate::scene::{
+    Bookkeeping, DensityDoc, EmissionDoc, Fault, MediumDoc, SceneDoc, WhenExceeded, validate,
+};
 use crate::transmittance::TransmittanceKind;
 use std::collections::BTreeSet;
 use toml::{Table, Value};
@@ -40,7 +42,9 @@ fn tables() -> BTreeSet<Place> {
         }
     }
     // Window state is read by the application.
-    tables.retain(|place| !["lights", "objects", "compare.views", "window"].contains(&place.path));
+    tables.retain(|place| {
+        !["lights", "objects", "compare.views", "compare.views.*.media", "window"].contains(&place.path)
+    });
     tables
 }
 
@@ -119,7 +123,8 @@ fn minimal(place: &Place) -> Table {
 }
 
 fn read(table: &Table) -> Result<SceneDoc, String> {
-    toml::from_str(&toml::to_string(table).unwrap()).map_err(|e: toml::de::Error| e.message().to_owned())
+    let doc = toml::from_str::<SceneDoc>(&toml::to_string(table).unwrap());
+    doc.map(SceneDoc::upgraded).map_err(|e| e.message().to_owned())
 }
 
 /// Words in backticks after "expected".
@@ -195,6 +200,13 @@ fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     put(&mut table, "film.height", 1.into());
     put(&mut table, key.path, value);
     let mut doc = read(&table)?;
+    // A view names media of a scene with several.
+    if place.path.contains(".media") {
+        doc.media.push(MediumDoc { name: "one".into(), ..MediumDoc::default() });
+        for medium in &mut doc.compare.views[0].media {
+            medium.name = "one".into();
+        }
+    }
     // Views that are referred to by index have to exist.
     while doc.compare.views.len() < 7 && key.path.starts_with("compare.") {
         doc.compare.views.push(doc.view_overrides(0).unwrap());
@@ -311,12 +323,17 @@ fn what_a_key_affects_is_where_it_shows() {
             let found = changed(&a, &b).unwrap();
             assert!(found.len() == 1 && found[0].path == name, "{name}: {found:?}");
             // Fields that determine samples, one by one.
-            let samples = (&a.camera, &a.film, &a.medium, &a.lights, &a.objects, &a.estimator, a.render.seed)
-                != (&b.camera, &b.film, &b.medium, &b.lights, &b.objects, &b.estimator, b.render.seed);
+            let media = |doc: &SceneDoc| {
+                let mut media = doc.media.clone();
+                media.iter_mut().for_each(|medium| medium.name.clear());
+                media
+            };
+            let samples = (&a.camera, &a.film, media(&a), &a.lights, &a.objects, &a.estimator, a.render.seed)
+                != (&b.camera, &b.film, media(&b), &b.lights, &b.objects, &b.estimator, b.render.seed);
             assert_eq!(samples, matches!(key.affects, Affects::Scene | Affects::Estimate), "{name}");
             assert_eq!(a.render_part() != b.render_part(), samples, "{name}");
-            let frozen = (&a.camera, &a.film, &a.medium, &a.lights, &a.objects)
-                != (&b.camera, &b.film, &b.medium, &b.lights, &b.objects);
+            let frozen = (&a.camera, &a.film, &a.media, &a.lights, &a.objects)
+                != (&b.camera, &b.film, &b.media, &b.lights, &b.objects);
             assert_eq!(a.scene_part() != b.scene_part(), frozen, "{name}");
             assert_eq!(a.target_part() != b.target_part(), key.affects == Affects::Scene, "{name}");
             assert_eq!(
@@ -343,14 +360,14 @@ fn no_combination_of_settings_biases_a_reference() {
                         for (factor, grid) in [(0.5, true), (0.5, false), (1.0, true)] {
                             let mut doc = SceneDoc::default();
                             if grid {
-                                doc.medium.density = DensityDoc::Grid(std::default::Default::default());
+                                doc.medium_mut().density = DensityDoc::Grid(std::default::Default::default());
                             }
                             doc.estimator.id = entry.id.into();
                             doc.estimator.fault = fault;
                             doc.estimator.bookkeeping = bookkeeping;
                             transmittance.entry().id.clone_into(&mut doc.estimator.transmittance);
-                            doc.medium.majorant.when_exceeded = when_exceeded;
-                            doc.medium.majorant.factor = factor;
+                            doc.medium_mut().majorant.when_exceeded = when_exceeded;
+                            doc.medium_mut().majorant.factor = factor;
                             let ruled = |doc: &SceneDoc| {
                                 all().iter().any(|key| key.biases.is_some_and(|bias| (bias.holds)(doc)))
                             };
@@ -369,7 +386,7 @@ fn no_combination_of_settings_biases_a_reference() {
     }
     assert!(biased > 500, "{biased}");
     let mut glowing = SceneDoc::default();
-    glowing.medium.emission = Some(EmissionDoc::default());
+    glowing.medium_mut().emission = Some(EmissionDoc::default());
     glowing.estimator.id = "mitsuba2-volpath".into();
     let entry = estimator::find("mitsuba2-volpath").unwrap();
     assert!(entry.bias(&glowing).is_some() && (super::biases::ESTIMATOR.holds)(&glowing));
@@ -380,7 +397,7 @@ fn what_cannot_bias_stays() {
     let mut doc = SceneDoc::default();
     doc.estimator.bookkeeping = Bookkeeping::Pairwise;
     doc.estimator.transmittance = "power-series".into();
-    doc.medium.majorant.factor = 2.5;
+    doc.medium_mut().majorant.factor = 2.5;
     assert_eq!(doc.unbiased(), doc);
 }
 
@@ -390,8 +407,8 @@ fn parts_and_changes_are_of_the_keys_that_differ() {
     let doc = crate::io::scene_file::parse(text, "first-light").unwrap();
     let part = doc.render_part();
     assert_eq!(
-        (&part.camera, &part.film, &part.medium, &part.lights, &part.objects, &part.estimator),
-        (&doc.camera, &doc.film, &doc.medium, &doc.lights, &doc.objects, &doc.estimator)
+        (&part.camera, &part.film, part.medium(), &part.lights, &part.objects, &part.estimator),
+        (&doc.camera, &doc.film, doc.medium(), &doc.lights, &doc.objects, &doc.estimator)
     );
     let paths = |edit: fn(&mut SceneDoc)| {
         let mut edited = doc.clone();
@@ -399,7 +416,7 @@ fn parts_and_changes_are_of_the_keys_that_differ() {
         changed(&doc, &edited).unwrap().into_iter().map(|key| key.path).collect::<Vec<_>>()
     };
     assert!(paths(|_| ()).is_empty());
-    assert_eq!(paths(|d| d.medium.scale += 1.0), ["medium.scale"]);
+    assert_eq!(paths(|d| d.medium_mut().scale += 1.0), ["medium.scale"]);
     assert!(paths(|d| drop(d.lights.pop())).contains(&"lights.*.kind"));
     assert_eq!(paths(|d| d.render.threads = Some(3)), ["render.threads"]);
 }

@@ -2,16 +2,39 @@
 
 use super::Checker;
 use crate::phase::{PhaseDoc, check_table};
-use crate::scene::{CoefficientsDoc, MediumDoc};
+use crate::scene::{CoefficientsDoc, MAX_MEDIA, MediumDoc, SceneDoc, Within};
 use crate::spectrum::{Outside, SpectrumDoc};
 
-pub(super) fn medium(c: &mut Checker, doc: &MediumDoc) {
+pub(super) fn media(c: &mut Checker, doc: &SceneDoc) {
+    let count = doc.media.len();
+    c.check(count <= MAX_MEDIA, "medium", format!("holds {count} media: at most {MAX_MEDIA} are supported"));
+    for (index, medium) in doc.media.iter().enumerate() {
+        let path = doc.medium_path(index);
+        let named = format!("{path}.name");
+        let valid = !medium.name.is_empty() && !medium.name.contains(['.', '[', ']', '=']);
+        c.check(valid, named.clone(), "is empty or contains one of `.`, `[`, `]`, `=`: choose another name");
+        let taken = doc.media[..index].iter().any(|other| other.name == medium.name);
+        c.check(!taken, named, format!("`{}` is the name of another medium: give each its own", medium.name));
+        check_medium(c, medium, &path);
+    }
+}
+
+fn check_medium(c: &mut Checker, doc: &MediumDoc, path: &str) {
+    if doc.within == Within::Everywhere {
+        let given_by_grid =
+            !doc.is_uniform() || doc.emission.as_ref().is_some_and(|e| e.temperature.is_some());
+        let message = "is `everywhere`, which needs uniform coefficients and temperature: choose `grid` for a medium given by grids";
+        c.check(!given_by_grid, format!("{path}.within"), message);
+    } else {
+        let message = "has no effect on a medium within `grid`: leave it out, or choose `everywhere`";
+        c.check(doc.extent.is_none(), format!("{path}.extent"), message);
+    }
     if let Some(CoefficientsDoc::MeanFreePathColour { mean_free_path, .. }) = &doc.coefficients {
         // A mean free path of zero would be an infinite extinction.
         let vanishes = matches!(mean_free_path, SpectrumDoc::Points { outside: Outside::Zero, .. });
         c.check(
             !vanishes,
-            "medium.coefficients.mean_free_path",
+            format!("{path}.coefficients.mean_free_path"),
             "is zero beyond its points: leave `outside` out, which holds the last values",
         );
     }
@@ -19,11 +42,11 @@ pub(super) fn medium(c: &mut Checker, doc: &MediumDoc) {
         if file.is_empty() {
             let problem = check_table(*angle, points).err();
             let message = problem.map(|e| e.to_string()).unwrap_or_default();
-            c.check(problem.is_none(), "medium.phase.points", message);
+            c.check(problem.is_none(), format!("{path}.phase.points"), message);
         } else {
             c.check(
                 points.is_empty(),
-                "medium.phase.file",
+                format!("{path}.phase.file"),
                 "and `points` are both given: leave one of the two out",
             );
         }

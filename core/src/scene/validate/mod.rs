@@ -70,7 +70,7 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
         format!("{width} × {height} pixels exceed the maximum of {} million", MAX_PIXELS / 1_000_000),
     );
     c.apart("camera.target", doc.camera.target, doc.camera.origin);
-    medium::medium(&mut c, &doc.medium);
+    medium::media(&mut c, doc);
     for (i, light) in doc.lights.iter().enumerate() {
         match light {
             LightDoc::Rectangle { center, target, .. } => {

@@ -2,7 +2,7 @@
 //! [`InMedium`].
 
 use super::*;
-use crate::math::{BoxRay, Ray};
+use crate::math::Ray;
 use crate::medium::*;
 use crate::spectrum::{Components, Quantity, RgbChannels, Spectrum, SpectrumDoc};
 use glam::{Affine3A, Vec3};
@@ -29,14 +29,15 @@ fn rgb(rgb: [f32; 3]) -> Spectrum {
     Spectrum::new(&SpectrumDoc::Rgb(rgb), Quantity::Coefficient)
 }
 
-fn agrees(medium: &impl Medium, what: &str) {
+fn agrees(medium: AnyMedium, what: &str) {
+    let placed = PlacedMedium::new(medium, Region::Cube(Affine3A::IDENTITY));
+
     // The hero is green.
     let components = RgbChannels::sample(0.5, None);
-    let local = medium.local::<3, _>(&components);
+    let media = Several::<3>::new([&placed], &components, false);
     let direction = Vec3::new(1.0, 0.25, 0.4).normalize();
     let ray = Ray { origin: Vec3::new(-0.5, 0.3, 0.2), direction };
-    let (_, ray) = BoxRay::enter(&ray, &Affine3A::IDENTITY, f32::INFINITY).unwrap();
-    let profile = InMedium::new(&local, ray);
+    let profile = InMedium::new(media.traverse(&ray, f32::INFINITY).unwrap().1);
     let steps = 4000u16;
     let mut depth = [0.0f64; 3];
     for piece in profile.pieces() {
@@ -84,7 +85,7 @@ fn rays_through_a_density_have_the_transmittance_of_their_quadrature() {
             albedo: Spectrum::constant(0.5),
             majorant: MajorantPolicy::new(&doc),
         };
-        agrees(&medium, &format!("density, {cells} cells, {doc:?}"));
+        agrees(AnyMedium::DensityGrid(medium), &format!("density, {cells} cells, {doc:?}"));
     }
 }
 
@@ -94,7 +95,9 @@ fn rays_through_other_media_do_as_well() {
     let field = grid::<3>();
     let extinction = ExtinctionField::Rgb(Arc::clone(&field), bounds(&field, 6), 5.0);
     let albedo = AlbedoField::Uniform(Spectrum::constant(0.5));
-    agrees(&RgbGrids::new(extinction, albedo, Interpolation::Trilinear, policy), "rgb grid");
+    let medium = RgbGrids::new(extinction, albedo, Interpolation::Trilinear, policy);
+    agrees(AnyMedium::RgbGrids(medium), "rgb grid");
     let extinction = rgb([2.0, 1.0, 0.5]);
-    agrees(&Homogeneous { extinction, albedo: Spectrum::constant(0.5), majorant: policy }, "homogeneous");
+    let medium = Homogeneous { extinction, albedo: Spectrum::constant(0.5), majorant: policy };
+    agrees(AnyMedium::Homogeneous(medium), "homogeneous");
 }

@@ -10,7 +10,8 @@ use egui::{
 };
 use glam::Vec3;
 use majorant_core::inspect::{Branch, Row, Step};
-use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc};
+use majorant_core::medium::Region;
+use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc, SceneMedium};
 use majorant_core::transport::Note;
 
 /// Number of steps in the search for the visible part of a line.
@@ -80,7 +81,7 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 3.0, palette.well);
     let eye = Eye { camera, rect, painter, palette };
-    eye.medium(scene);
+    eye.media(scene);
     eye.lights(&doc, center, size);
     eye.path(replayed, center, size);
     if let Some(row) = replayed.ledger.rows.get(state.step) {
@@ -106,11 +107,16 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     );
 }
 
-/// Centre and diagonal of the medium's bounding box.
+/// Centre and diagonal of the bounds of all media.
 fn extent(scene: &Scene) -> (Vec3, f32) {
-    let world = scene.medium_from_world.inverse();
-    let size = world.transform_vector3(Vec3::ONE).length();
-    (world.transform_point3(Vec3::splat(0.5)), size)
+    let [lo, hi] = [scene.info.world_min, scene.info.world_max].map(Vec3::from);
+    (0.5 * (lo + hi), (hi - lo).length())
+}
+
+/// The medium of an event: that of its collision, or else the only medium.
+fn medium_of<'s>(scene: &'s Scene, row: &Row) -> Option<&'s SceneMedium> {
+    let index = row.found.map_or(0, |found| found.medium);
+    scene.media.get(index as usize)
 }
 
 /// Initial camera: beside the scene's camera and slightly higher, so that the camera ray is visible.
@@ -128,10 +134,30 @@ fn first_look(doc: &SceneDoc, center: Vec3, size: f32) -> CameraDoc {
 }
 
 impl Eye<'_> {
-    /// Draws the edges of the medium's bounding box.
-    fn medium(&self, scene: &Scene) {
-        let world = scene.medium_from_world.inverse();
-        self.frame(|unit| world.transform_point3(unit), Stroke::new(1.0, self.palette.line));
+    /// Draws the edges of the boxes of all media; balls by three circles.
+    fn media(&self, scene: &Scene) {
+        let stroke = Stroke::new(1.0, self.palette.line);
+        for medium in &scene.media {
+            match medium.placed.region {
+                Region::Cube(medium_from_world) => {
+                    let world = medium_from_world.inverse();
+                    self.frame(|unit| world.transform_point3(unit), stroke);
+                }
+                Region::Ball(radius) => self.circles(Vec3::ZERO, radius, stroke),
+                Region::Everywhere => {}
+            }
+        }
+    }
+
+    /// Draws three circles of a sphere.
+    fn circles(&self, center: Vec3, radius: f32, stroke: Stroke) {
+        for axes in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
+            let at = |i: u16| {
+                let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / 32.0).sin_cos();
+                center + (axes.0 * cos + axes.1 * sin) * radius
+            };
+            (0..32).for_each(|i| self.line(at(i), at(i + 1), stroke));
+        }
     }
 
     fn frame(&self, at: impl Fn(Vec3) -> Vec3, stroke: Stroke) {
@@ -161,14 +187,7 @@ impl Eye<'_> {
                     }
                 }
                 LightDoc::Sphere { center, radius, .. } => {
-                    let center = Vec3::from(*center);
-                    for axes in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
-                        let at = |i: u16| {
-                            let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / 32.0).sin_cos();
-                            center + (axes.0 * cos + axes.1 * sin) * *radius
-                        };
-                        (0..32).for_each(|i| self.line(at(i), at(i + 1), Stroke::new(0.7, stroke.color)));
-                    }
+                    self.circles(Vec3::from(*center), *radius, Stroke::new(0.7, stroke.color));
                 }
                 LightDoc::Sun { toward, .. } => {
                     let toward = Vec3::from(*toward).normalize_or(Vec3::Y);
@@ -235,14 +254,15 @@ impl Eye<'_> {
 
     /// Draws the majorant cell that contains the selected event.
     fn cell(&self, scene: &Scene, row: &Row) {
-        let (Some(cells), Some(point)) = (scene.medium.majorant_cells(), row.point) else { return };
+        let (Some(medium), Some(point)) = (medium_of(scene, row), row.point) else { return };
+        let Some(cells) = medium.placed.medium.majorant_cells() else { return };
         let n = cells.cells() as f32;
-        let unit = scene.medium_from_world.transform_point3(point);
+        let unit = medium.medium_from_world().transform_point3(point);
         if unit.min_element() < 0.0 || unit.max_element() > 1.0 {
             return;
         }
         let corner = (unit * n).floor().min(Vec3::splat(n - 1.0));
-        let world = scene.medium_from_world.inverse();
+        let world = medium.medium_from_world().inverse();
         let stroke = Stroke::new(1.0, self.palette.good);
         self.frame(|within| world.transform_point3((corner + within) / n), stroke);
     }
@@ -253,15 +273,16 @@ impl Eye<'_> {
         if !matches!(row.step, Step::Scatter | Step::Direction(..) | Step::Connect(..)) {
             return;
         }
-        let Some(point) = row.point else { return };
+        let (Some(medium), Some(point)) = (medium_of(scene, row), row.point) else { return };
+        let phase = &medium.phase;
         let Some(arrived) = direction_before(replayed, row.note) else { return };
         let across =
             arrived.cross(point - self.camera.origin()).normalize_or(arrived.any_orthonormal_vector());
         let angles: Vec<f32> = (0..=96u8).map(|i| f32::from(i) * std::f32::consts::TAU / 96.0).collect();
-        let largest = angles.iter().map(|a| scene.phase.value(a.cos())).fold(f32::MIN_POSITIVE, f32::max);
+        let largest = angles.iter().map(|a| phase.value(a.cos())).fold(f32::MIN_POSITIVE, f32::max);
         let outline = angles.iter().filter_map(|angle| {
             // Logarithmic over three decades below the peak, as in the panel.
-            let radius = (1.0 + (scene.phase.value(angle.cos()) / largest).max(1e-9).log10() / 3.0).max(0.0);
+            let radius = (1.0 + (phase.value(angle.cos()) / largest).max(1e-9).log10() / 3.0).max(0.0);
             let direction = arrived * angle.cos() + across * angle.sin();
             self.see(point + direction * (radius * 0.22 * size))
         });

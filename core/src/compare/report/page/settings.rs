@@ -47,7 +47,7 @@ fn setting(gathered: &Gathered<'_>, (shown, standing): (&Shown<'_>, &Standing)) 
         choices: choices(estimator),
         depth: estimator.max_depth.map_or_else(|| "unlimited".into(), |d| d.to_string()),
         roulette: estimator.roulette_depth.map_or_else(|| "never".into(), |d| format!("after {d}")),
-        majorant: majorant(&doc.medium.majorant),
+        majorant: majorant(&doc.medium().majorant),
         seed: doc.render.seed,
         spp: standing.spp,
         against: words::against(&standing.against),
