@@ -165,8 +165,13 @@ fn pictures_that_are_missing_damaged_or_black() {
         repaired.len() == 2 && repaired.iter().all(|notice| notice.contains(": 2 texel(s)")),
         "{repaired:?}"
     );
-    let map =
-        LightDoc::EnvironmentMap { file: "good.exr".into(), rotate_deg: 30.0, scale: 1.0, visible: true };
+    let map = LightDoc::EnvironmentMap {
+        file: "good.exr".into(),
+        rotate_deg: 30.0,
+        scale: 1.0,
+        visible: true,
+        enabled: true,
+    };
     let doc = SceneDoc { lights: vec![map], ..SceneDoc::default() };
     frozen(&doc, folder.path());
 

@@ -215,6 +215,15 @@ fn info_describes_volumes_and_scenes() {
             .unwrap();
     assert_eq!(npy["grids"][0]["bbox"], serde_json::json!([0, 0, 0, 63, 63, 63]));
     assert!(succeeds(&["info", &file("../assets/oracle/S2/scene.toml")]).contains("uni-nee-mis"));
+    // The only medium is an object, as before there were several; all media are a list.
+    let scene = |name: &str| -> Value {
+        let scene = file(&format!("../assets/oracle/{name}/scene.toml"));
+        serde_json::from_str(&succeeds(&["info", &scene, "--json"])).unwrap()
+    };
+    let (one, two) = (scene("S2"), scene("S7"));
+    assert_eq!((&one["medium"]["scale"], &one["media"][0]["scale"]), (&16.0.into(), &16.0.into()));
+    assert_eq!((two["media"].as_array().unwrap().len(), &two["medium"]), (2, &Value::Null));
+    assert!(succeeds(&["info", &file("../assets/oracle/S7/scene.toml")]).contains("haze: homogeneous medium"));
 }
 
 #[test]

@@ -129,6 +129,7 @@ fn endless_scenes() -> [SceneDoc; 2] {
         size: [3.0; 3],
         rotate_deg: [0.0; 3],
         albedo: SpectrumDoc::Constant(1.0),
+        enabled: true,
     });
     [dense, room]
 }

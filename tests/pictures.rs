@@ -328,8 +328,13 @@ fn the_files_of_other_writers_are_what_they_mean() {
 fn a_scene_tells_what_its_picture_was_made_of() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("pictures");
     let notices = |file: &str| {
-        let light =
-            LightDoc::EnvironmentMap { file: file.into(), rotate_deg: 0.0, scale: 1.0, visible: true };
+        let light = LightDoc::EnvironmentMap {
+            file: file.into(),
+            rotate_deg: 0.0,
+            scale: 1.0,
+            visible: true,
+            enabled: true,
+        };
         let doc = SceneDoc { lights: vec![light], ..SceneDoc::default() };
         let mut library = Library::default().with_base(&folder);
         // The second time from the cache.

@@ -25,6 +25,7 @@ fn everything() -> SceneDoc {
             target: [0.1, 0.2, 0.3],
             up: [0.0, 0.0, 1.0],
             fov_deg: 21.5,
+            mirror: true,
         },
         film: FilmDoc { width: 123, height: 45 },
         media: vec![

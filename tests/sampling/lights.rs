@@ -36,6 +36,7 @@ fn lights() -> Vec<(String, LightDoc)> {
         rotate_deg,
         scale: 1.5,
         visible: true,
+        enabled: true,
     };
     let mut lights = Vec::new();
     for (name, mut doc) in LightDoc::templates() {

@@ -3,6 +3,7 @@
 use super::{Failure, options, print_line};
 use majorant_core::io::volume::{self, FileInfo, GridInfo, ReadLimits, VoxelGrid};
 use majorant_core::io::{picture, scene_file};
+use majorant_core::scene::SceneDoc;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args, Debug)]
@@ -137,10 +138,23 @@ fn exr(path: &Path, json: bool) -> Result<(), Failure> {
     }
 }
 
+/// Scene as JSON: `media` lists all media, and `medium` is the only medium of a scene that has one.
+fn scene_json(doc: &SceneDoc) -> Result<serde_json::Value, Failure> {
+    let mut value = serde_json::to_value(doc)?;
+    if let Some(fields) = value.as_object_mut() {
+        let media = fields.remove("medium").unwrap_or_default();
+        if let Some([only]) = media.as_array().map(Vec::as_slice) {
+            fields.insert("medium".into(), only.clone());
+        }
+        fields.insert("media".into(), media);
+    }
+    Ok(value)
+}
+
 fn scene(path: &Path, json: bool) -> Result<(), Failure> {
     let doc = scene_file::load(path)?;
     if json {
-        return print_line(&serde_json::to_string(&doc)?);
+        return print_line(&scene_json(&doc)?.to_string());
     }
     print_line(&format!("{}: {}", doc.title, doc.note))?;
     print_line(&format!(

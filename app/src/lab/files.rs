@@ -193,6 +193,7 @@ impl LabApp {
                 rotate_deg: 0.0,
                 scale: 1.0,
                 visible: true,
+                enabled: true,
             }),
         }
         self.document.edit(doc);

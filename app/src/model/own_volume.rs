@@ -135,6 +135,7 @@ mod tests {
             radiance: majorant_core::spectrum::SpectrumDoc::Constant(1.0),
             scale: 1.0,
             visible: true,
+            enabled: true,
         }];
         let filled = with_volume(&doc, "a.vdb".into(), &LOOK);
         assert_eq!(filled.medium().placement.fit, Some(1.0));

@@ -1,7 +1,7 @@
 //! Camera and image size.
 
 use super::{Column, Cx, Panel};
-use crate::widgets::{Value, Vector, hint, key, row, whole};
+use crate::widgets::{Value, Vector, hint, key, row, switch, whole};
 use egui::Ui;
 
 /// Panel of the camera and the image size.
@@ -38,6 +38,8 @@ impl Panel for Camera {
             .within(1.0..=150.0)
             .speed(0.2)
             .show(ui);
+        let mirror = key("camera.mirror");
+        switch(ui, mirror.label, "Mirror the camera", &mut camera.mirror, "left and right", mirror.tip);
         size_ui(ui, cx);
         if cx.draft.camera != cx.opened.camera && ui.small_button("↺  Camera as opened").clicked() {
             cx.draft.camera = cx.opened.camera.clone();

@@ -110,6 +110,8 @@ fn emission_ui(ui: &mut Ui, name: &str, light: &mut LightDoc, opened: &LightDoc,
     }
     let key = key("lights.*.visible");
     switch(ui, key.label, &format!("{name} visible"), visible, "to the camera", key.tip);
+    let key = self::key("lights.*.enabled");
+    switch(ui, key.label, &format!("{name} enabled"), light.enabled_mut(), "part of the scene", key.tip);
 }
 
 fn emission(light: &LightDoc) -> (f32, Option<&SpectrumDoc>) {
@@ -126,7 +128,7 @@ fn emission_mut(light: &mut LightDoc) -> (&mut f32, Option<&mut SpectrumDoc>, &m
     match light {
         LightDoc::Rectangle { scale, radiance, visible, .. }
         | LightDoc::Sphere { scale, radiance, visible, .. }
-        | LightDoc::Environment { scale, radiance, visible } => (scale, Some(radiance), visible),
+        | LightDoc::Environment { scale, radiance, visible, .. } => (scale, Some(radiance), visible),
         LightDoc::Sun { scale, irradiance, visible, .. } => (scale, Some(irradiance), visible),
         LightDoc::EnvironmentMap { scale, visible, .. } => (scale, None, visible),
     }

@@ -29,6 +29,9 @@ impl Panel for Media {
     fn column(&self) -> Column {
         Column::Scene
     }
+    fn starts_open(&self) -> bool {
+        true
+    }
     fn summary(&self, cx: &Cx<'_>) -> String {
         match cx.draft.media.as_slice() {
             [] => "none".into(),
@@ -74,7 +77,7 @@ fn item_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) -> Option<Change> {
                 if button("⊕", "Duplicate") {
                     change = Some(Change::Duplicate(index));
                 }
-                if count > 1 && index > 0 && button("⏶", "Move up") {
+                if count > 1 && index > 0 && button("▲", "Move up") {
                     change = Some(Change::MoveUp(index));
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center).with_main_justify(true), |ui| {

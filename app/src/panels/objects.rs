@@ -2,7 +2,7 @@
 
 use super::lights::{Change, add_ui, card_ui};
 use super::{Column, Cx, Panel};
-use crate::widgets::{SpectrumField, Vector, hint, key, row, spectrum_editor};
+use crate::widgets::{SpectrumField, Vector, hint, key, row, spectrum_editor, switch};
 use egui::Ui;
 use majorant_core::scene::ObjectDoc;
 use majorant_core::scene::keys::Key;
@@ -65,11 +65,14 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
         let name = format!("{name} {}", key.label.to_lowercase());
         Vector::of(key, name, now).defaulting_to(default).opened(was).show(ui);
     };
+    let enabled = key("objects.*.enabled");
+    let label = format!("{name} enabled");
+    switch(ui, enabled.label, &label, object.enabled_mut(), "part of the scene", enabled.tip);
     // All three are of the same kind.
     match (object, opened, &template) {
         (
-            ObjectDoc::Ground { point, normal, albedo },
-            ObjectDoc::Ground { point: p1, normal: n1, albedo: a1 },
+            ObjectDoc::Ground { point, normal, albedo, .. },
+            ObjectDoc::Ground { point: p1, normal: n1, albedo: a1, .. },
             ObjectDoc::Ground { point: p0, normal: n0, .. },
         ) => {
             show(ui, key("objects.*.point"), point, *p1, *p0);
@@ -77,8 +80,8 @@ fn object_ui(ui: &mut Ui, object: &mut ObjectDoc, opened: Option<&ObjectDoc>, in
             albedo_ui(ui, &name, albedo, a1);
         }
         (
-            ObjectDoc::Box { center, size, rotate_deg, albedo },
-            ObjectDoc::Box { center: c1, size: s1, rotate_deg: r1, albedo: a1 },
+            ObjectDoc::Box { center, size, rotate_deg, albedo, .. },
+            ObjectDoc::Box { center: c1, size: s1, rotate_deg: r1, albedo: a1, .. },
             ObjectDoc::Box { center: c0, size: s0, rotate_deg: r0, .. },
         ) => {
             show(ui, key("objects.*.center"), center, *c1, *c0);

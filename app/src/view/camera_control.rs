@@ -11,6 +11,7 @@ const POLE_DEG: f32 = 2.0;
 #[must_use]
 pub fn orbit(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     let Some((offset, up)) = offset_and_up(camera) else { return camera.clone() };
+    let dx = if camera.mirror { -dx } else { dx };
     let turned = Quat::from_axis_angle(up, -dx * std::f32::consts::PI) * offset;
     let polar = turned.angle_between(up);
     let limit = POLE_DEG.to_radians();
@@ -25,6 +26,7 @@ pub fn orbit(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
 #[must_use]
 pub fn pan(camera: &CameraDoc, dx: f32, dy: f32) -> CameraDoc {
     let Some((offset, up)) = offset_and_up(camera) else { return camera.clone() };
+    let dx = if camera.mirror { -dx } else { dx };
     let width = 2.0 * offset.length() * (0.5 * camera.fov_deg.to_radians()).tan();
     let right = up.cross(offset).normalize_or(up.any_orthonormal_vector());
     let screen_up = offset.cross(right).normalize_or(up);

@@ -50,7 +50,8 @@ fn embedded(doc: &SceneDoc) -> Result<Option<Volume>, VolumeError> {
 fn own_box(doc: &SceneDoc) -> Result<(Vec3, Vec3), FiguresError> {
     let Some(grid) = doc.medium().density.grid() else { return Ok((Vec3::ZERO, Vec3::ONE)) };
     let placed = Library::default().scalar_grid(grid, doc.medium().precision)?;
-    Ok(bounds(&placed.object_from_unit))
+    let (lo, hi) = bounds(&placed.object_from_unit);
+    Ok((lo.as_vec3(), hi.as_vec3()))
 }
 
 /// Largest sum of densities along a grid line, in units of the longest edge.

@@ -3,7 +3,7 @@
 use super::volume::{BLOCK_EDGE, BlockGrid, SampleConvention, Volume, VoxelGrid};
 use crate::medium::{BRICK_EDGE, Bricks, Grid, Lattice, Majorants, Packing, Precision};
 use crate::scene::{PlacedGrid, ResourceError};
-use glam::{Affine3A, DAffine3, DVec3};
+use glam::{DAffine3, DVec3};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -53,9 +53,7 @@ pub(super) fn place<const C: usize>(
     if grid.max().iter().all(|m| *m <= 0.0) {
         notices.push(format!("{}: the grid is empty, its density is 0.", path.display()));
     }
-    let placed = world_from_index * index_from_unit;
-    let object_from_unit =
-        Affine3A::from_mat3_translation(placed.matrix3.as_mat3(), placed.translation.as_vec3());
+    let object_from_unit = world_from_index * index_from_unit;
     // The readers choose the box of `.npy` and `.raw` files.
     let has_position =
         path.extension().is_none_or(|e| !e.eq_ignore_ascii_case("npy") && !e.eq_ignore_ascii_case("raw"));

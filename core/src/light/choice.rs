@@ -79,7 +79,8 @@ impl Source {
         match self {
             Self::Rectangle { area, luminance, .. } => PI * area * luminance,
             Self::Sphere { radius, luminance, .. } => 4.0 * PI * PI * radius * radius * luminance,
-            Self::Distant { illuminance } if illuminance == 0.0 => 0.0,
+            // Extinguished by media without a boundary.
+            Self::Distant { illuminance: 0.0 } => 0.0,
             Self::Distant { illuminance } => PI * radius * radius * illuminance,
         }
     }

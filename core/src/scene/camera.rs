@@ -7,7 +7,8 @@ use glam::{Vec2, Vec3};
 /// Pinhole camera with a film of a given size.
 ///
 /// The ray through continuous pixel coordinates (x right, y down) has direction
-/// `normalize((2x/W − 1)·tan(fov/2)·right + (1 − 2y/H)·tan(fov/2)·(H/W)·up + forward)`.
+/// `normalize((2x/W − 1)·tan(fov/2)·right + (1 − 2y/H)·tan(fov/2)·(H/W)·up + forward)`, with −right in a
+/// mirrored camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     origin: Vec3,
@@ -35,7 +36,7 @@ impl Camera {
         Self {
             origin,
             forward,
-            right: right * tan,
+            right: if doc.mirror { -right * tan } else { right * tan },
             up: right.cross(forward) * (tan * h / w),
             pixels_to_film: Vec2::new(2.0 / w, 2.0 / h),
         }
@@ -77,7 +78,7 @@ mod tests {
     fn rays_agree_with_an_independent_renderer() {
         // Oracle scene S1, `check_rays`.
         let doc =
-            CameraDoc { origin: [1.6, 1.1, -2.4], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 32.0 };
+            CameraDoc { origin: [1.6, 1.1, -2.4], target: [0.0; 3], fov_deg: 32.0, ..CameraDoc::default() };
         let camera = Camera::new(&doc, 128, 128);
         for (pixel, direction) in [
             ([0.0, 0.0], [-0.311_724_66, -0.081_921_36, 0.946_634_4]),
@@ -90,5 +91,16 @@ mod tests {
             assert!((seen - Vec2::from(pixel)).length() < 1e-2, "{seen}");
             assert!(camera.pixel_of(ray.at(-3.7)).is_none());
         }
+    }
+
+    #[test]
+    fn a_mirrored_camera_exchanges_left_and_right() {
+        let doc = CameraDoc { origin: [1.6, 1.1, -2.4], fov_deg: 32.0, ..CameraDoc::default() };
+        let [plain, mirrored] =
+            [false, true].map(|mirror| Camera::new(&CameraDoc { mirror, ..doc.clone() }, 120, 80));
+        let ray = mirrored.ray(Vec2::new(30.0, 7.0));
+        assert!((ray.direction - plain.ray(Vec2::new(90.0, 7.0)).direction).length() < 1e-6);
+        let seen = mirrored.pixel_of(ray.at(2.0)).expect("it lies in front");
+        assert!((seen - Vec2::new(30.0, 7.0)).length() < 1e-3);
     }
 }

@@ -14,7 +14,10 @@ use super::super::truth::{self, Points};
 use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::single_scattering::{Cube, Disc, QUADRATURE, in_lattice, sun};
 use super::thermal::planck;
-use super::{ASIDE, AXIS, CONNECTING_AND_ONE, FAMILIES_WITH_DISTANCE_SAMPLING};
+use super::{
+    ASIDE, AXIS, CONNECTING_AND_ONE, FAMILIES_WITH_DISTANCE_SAMPLING, SEVERAL_COMPONENTS,
+    UNIDIRECTIONAL_AND_FULL,
+};
 use crate::io::Library;
 use crate::scene::{Absorption, DistanceSampling, LightDoc, Mode, WhenExceeded};
 use crate::spectrum::SpectrumDoc;
@@ -78,8 +81,8 @@ fn absorbers() -> Result<Vec<Case>, CheckError> {
         inside.answered(through([0.7, 0.3, 2.2])),
         disabled.answered(through([1.0, 0.0, 4.0])),
         none.answered(through([0.0; 3])),
-        exceeded,
-        shared,
+        exceeded.among(&SEVERAL_COMPONENTS),
+        shared.among(&SEVERAL_COMPONENTS),
         whole,
     ])
 }
@@ -109,7 +112,8 @@ fn unbounded() -> Result<Case, CheckError> {
         sigma.toml()
     );
     let colour = truth::film(|l| (-59.9 * sigma.at(l)).exp());
-    Case::new("media/unbounded", &toml, Answer::uniform(colour, Layout::WHOLE))
+    let case = Case::new("media/unbounded", &toml, Answer::uniform(colour, Layout::WHOLE))?;
+    Ok(case.among(&SEVERAL_COMPONENTS))
 }
 
 /// A rough grid, a rotated box through it and a ball around both, with different phase functions.
@@ -160,10 +164,10 @@ fn furnace() -> Result<Vec<Case>, CheckError> {
         doc.media.iter_mut().for_each(|medium| medium.majorant.when_exceeded = WhenExceeded::Clamp);
     });
     Ok(vec![
-        spectral,
+        spectral.among(&SEVERAL_COMPONENTS),
         decomposed.among(&FAMILIES_WITH_DISTANCE_SAMPLING),
         weighted.among(&FAMILIES_WITH_DISTANCE_SAMPLING),
-        clamped,
+        clamped.among(&UNIDIRECTIONAL_AND_FULL),
         case,
     ])
 }
@@ -250,6 +254,7 @@ fn single() -> Result<Vec<Case>, CheckError> {
         radiance: SpectrumDoc::Constant(3.0),
         scale: 1.0,
         visible: false,
+        enabled: true,
     });
 
     let rough = fixture::rough_lattice([3, 3, 3], 6);

@@ -1,8 +1,9 @@
-//! Images of seven scenes from independent renderers.
+//! Images of nine scenes from independent renderers.
 //!
 //! The scenes, references and their provenance are in `assets/oracle`: block means of converged images in
 //! linear sRGB with standard errors, and for S6 also by quadrature. S4 and S5 are one plume in RGB and in
-//! spectral mode. The others have the same coefficients at every wavelength, so that their images apply to
+//! spectral mode. S7 has two overlapping media, which are one grid in the other renderer, and S8 a ball of
+//! fog around a light. S1, S2, S3 and S6 have the same coefficients at every wavelength, so that their images apply to
 //! spectral mode as well, in the colour of illuminant E instead of white. The reference of S5 was rendered
 //! with observer tables that are 0.1 % off. Where an estimator rarely hits a light, blocks are larger, since
 //! every batch must yield a reliable noise estimate.
@@ -15,7 +16,7 @@ use crate::scene::Mode;
 
 pub(super) const FAMILY: Family = Family {
     id: "oracle",
-    about: "Images of seven scenes by independent renderers, in blocks, within both standard errors.",
+    about: "Images of nine scenes by independent renderers, in blocks, within both standard errors.",
     deep_only: true,
     cases,
 };
@@ -56,6 +57,8 @@ static ORACLES: &[Oracle] = &[
     oracle!("S5", "reference.npy", 8, None),
     oracle!("S6", "reference.npy", 8, None),
     oracle!("S6", "analytic.npy", 8, None),
+    oracle!("S7", "reference.npy", 8, None),
+    oracle!("S8", "reference.npy", 8, None),
 ];
 
 fn files() -> Library {
@@ -142,7 +145,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         };
         // Grey scenes have the same answer in every channel and at every wavelength. S2 is by far the
         // slowest.
-        if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5") {
+        if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5" | "S7" | "S8") {
             let coloured = values
                 .iter()
                 .enumerate()

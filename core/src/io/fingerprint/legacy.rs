@@ -250,12 +250,13 @@ mod tests {
         documents
     }
 
-    /// While no key was added and no default changed, the text is not modified; afterwards it is restored to
-    /// that of version 0.1.
+    /// Changed defaults and new keys are restored to the text of version 0.1, which the fingerprints of the
+    /// embedded scenes confirm.
     #[test]
     fn the_text_of_version_0_1_stands_as_it_was() {
         for doc in documents() {
-            let text = text_today(&doc, str::to_owned).unwrap();
+            let text = thawed(&text_today(&doc, str::to_owned).unwrap());
+            assert!(!text.contains("enabled") && !text.contains("mirror"), "{text}");
             assert_eq!(thawed(&text), text);
             // A changed default, and new keys and tables.
             let later = text.replacen("absorption = \"weighted\"", "absorption = \"analogue\"", 1);

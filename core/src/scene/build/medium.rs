@@ -11,7 +11,7 @@ use crate::scene::{
     WhenExceeded, Within, placement,
 };
 use crate::spectrum::Spectrum;
-use glam::{Affine3A, Vec3};
+use glam::{Affine3A, DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
 /// Maximum optical depth of a box, by its majorant. Beyond it free flights are shorter than the rounding
@@ -38,14 +38,16 @@ pub(super) fn build(
     let (region, bounds) = match (doc.within, doc.extent) {
         (Within::Grid, _) => {
             let world_from_unit = placement::world_from_unit(&doc.placement, object_from_unit);
+            let (lo, hi) = placement::bounds(&world_from_unit);
             // Relative to the edge lengths: a tiny box is valid, a flat one is not.
             let m = world_from_unit.matrix3;
             let edges = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
-            if !world_from_unit.inverse().is_finite() || m.determinant().abs() <= 1e-6 * edges {
+            let medium_from_world = placement::single(&world_from_unit.inverse());
+            if !medium_from_world.is_finite() || m.determinant().abs() <= 1e-6 * edges {
                 let message = "the box has no volume: give every scale a value other than 0";
                 return Err(invalid("placement", message));
             }
-            (Region::Cube(world_from_unit.inverse()), Some(placement::bounds(&world_from_unit)))
+            (Region::Cube(medium_from_world), Some((lo.as_vec3(), hi.as_vec3())))
         }
         (Within::Everywhere, Some(radius)) => {
             (Region::Ball(radius), Some((Vec3::splat(-radius), Vec3::splat(radius))))
@@ -149,12 +151,12 @@ fn build_medium(
     mean_cosine: f32,
     resources: &mut dyn Resources,
     notices: &mut Vec<String>,
-) -> Result<(AnyMedium, Option<Emission>, Affine3A, MediumInfo), SceneError> {
+) -> Result<(AnyMedium, Option<Emission>, DAffine3, MediumInfo), SceneError> {
     let at = |key: &str| {
         let path = format!("{path}.{key}");
         move |source| SceneError::Resource { path, source }
     };
-    let centred = Affine3A::from_translation(Vec3::splat(-0.5));
+    let centred = DAffine3::from_translation(DVec3::splat(-0.5));
     let majorant = MajorantPolicy::new(&doc.majorant);
     let (extinction, albedo) = doc.extinction_and_albedo(mean_cosine);
     let sigma = extinction.scaled(doc.scale);
@@ -202,7 +204,9 @@ fn build_medium(
             // Two files that both define a position are registered by it; otherwise both grids fill the same
             // box.
             let albedo_from_density = match density_box {
-                Some(density) if read.has_position => read.object_from_unit.inverse() * density,
+                Some(density) if read.has_position => {
+                    placement::single(&(read.object_from_unit.inverse() * density))
+                }
                 _ => Affine3A::IDENTITY,
             };
             AlbedoField::Rgb(read.grid, albedo_from_density)
@@ -253,7 +257,7 @@ fn build_medium(
 /// position, and fills the same box otherwise.
 fn build_emission(
     doc: &EmissionDoc,
-    density_box: Option<Affine3A>,
+    density_box: Option<DAffine3>,
     resources: &mut dyn Resources,
     info: &mut MediumInfo,
     notices: &mut Vec<String>,
@@ -270,7 +274,8 @@ fn build_emission(
         info.memory_bytes += read.grid.bytes();
         notices.extend(read.notices);
         if let Some(density) = density_box.filter(|_| read.has_position) {
-            emission.temperature_from_medium = read.object_from_unit.inverse() * density;
+            emission.temperature_from_medium =
+                placement::single(&(read.object_from_unit.inverse() * density));
         }
         emission.temperature = Some(read.grid);
     }
@@ -286,9 +291,10 @@ fn bounds_of<const C: usize>(
     extinction: f32,
 ) -> Arc<MajorantGrid<C>> {
     let world_from_unit = placement::world_from_unit(&doc.placement, placed.object_from_unit).matrix3;
-    let edge =
-        (world_from_unit.x_axis.length() + world_from_unit.y_axis.length() + world_from_unit.z_axis.length())
-            / 3.0;
+    let edge = ((world_from_unit.x_axis.length()
+        + world_from_unit.y_axis.length()
+        + world_from_unit.z_axis.length())
+        / 3.0) as f32;
     let bounds = match doc.majorant.resolution {
         Some(cells) => placed.majorants.at(cells, doc.interpolation),
         None => placed.majorants.cheapest(extinction * edge * doc.majorant.factor, doc.interpolation),

@@ -12,7 +12,7 @@ use crate::light::{
 use crate::medium::{Grid, Majorants, Precision, Region};
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
 use crate::surface::{OrientedBox, Plane, Rectangle, Role, Shape, Sphere, Surface};
-use glam::{Affine3A, Vec3};
+use glam::{DAffine3, Vec3};
 use std::sync::Arc;
 
 /// A grid and its bounding box in the space of its file.
@@ -25,7 +25,7 @@ pub struct PlacedGrid<const C: usize> {
     /// Local bounds of the samples.
     pub majorants: Arc<Majorants<C>>,
     /// Maps the unit cube to the bounding box given by the file.
-    pub object_from_unit: Affine3A,
+    pub object_from_unit: DAffine3,
     /// Whether the file defines the position of the box, as OpenVDB and `.vol` do and `.npy` does not.
     pub has_position: bool,
     /// Repairs and choices made while reading, e.g. NaN voxels that were set to 0.
@@ -100,7 +100,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
 
     let mut surfaces = Vec::new();
     let mut lights = Vec::new();
-    for (index, light) in doc.lights.iter().enumerate() {
+    for (index, light) in doc.lights.iter().enumerate().filter(|(_, light)| light.enabled()) {
         let built = build_light(light, resources, &mut notices)
             .map_err(|source| SceneError::Resource { path: format!("lights[{index}]"), source })?;
         let shape = match &built {
@@ -108,10 +108,10 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
             LightKind::Sphere(l) => Some(Shape::Sphere(l.shape)),
             _ => None,
         };
-        surfaces.extend(shape.map(|shape| Surface { shape, role: Role::Light(index) }));
+        surfaces.extend(shape.map(|shape| Surface { shape, role: Role::Light(lights.len()) }));
         lights.push(Light { kind: built, visible: light.visible() });
     }
-    surfaces.extend(doc.objects.iter().map(build_object));
+    surfaces.extend(doc.objects.iter().filter(|object| object.enabled()).map(build_object));
     if lights.is_empty() && media.iter().all(|medium| medium.emission.is_none()) {
         notices.push("No light: the image is black. Add a light.".into());
     }
@@ -190,10 +190,10 @@ fn build_light(
 
 fn build_object(doc: &ObjectDoc) -> Surface {
     let (shape, albedo) = match doc {
-        ObjectDoc::Ground { point, normal, albedo } => {
+        ObjectDoc::Ground { point, normal, albedo, .. } => {
             (Shape::Plane(Plane { point: (*point).into(), normal: Vec3::from(*normal).normalize() }), albedo)
         }
-        ObjectDoc::Box { center, size, rotate_deg, albedo } => (
+        ObjectDoc::Box { center, size, rotate_deg, albedo, .. } => (
             Shape::Box(OrientedBox {
                 center: (*center).into(),
                 half_size: Vec3::from(*size) * 0.5,

@@ -14,11 +14,13 @@ pub struct CameraDoc {
     pub up: [f32; 3],
     /// Horizontal field of view, degrees.
     pub fov_deg: f32,
+    /// Whether left and right are exchanged, for scenes of renderers with a camera of other handedness.
+    pub mirror: bool,
 }
 
 impl Default for CameraDoc {
     fn default() -> Self {
-        Self { origin: [0.0, 0.0, 3.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 35.0 }
+        Self { origin: [0.0, 0.0, 3.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov_deg: 35.0, mirror: false }
     }
 }
 

@@ -71,13 +71,19 @@ pub struct ViewOverrides {
 }
 
 /// Settings in which a medium of a view differs from the scene's.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MediumOverrides {
     /// Name of the medium.
     pub name: String,
     /// Majorant that free flights are sampled from.
     pub majorant: MajorantDoc,
+}
+
+impl Default for MediumOverrides {
+    fn default() -> Self {
+        Self { name: MediumDoc::default().name, majorant: MajorantDoc::default() }
+    }
 }
 
 impl ViewOverrides {

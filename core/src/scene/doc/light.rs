@@ -43,6 +43,9 @@ pub enum LightDoc {
         /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
+        /// Whether the light is part of the scene.
+        #[serde(default = "shown")]
+        enabled: bool,
     },
     /// A sphere that emits outwards and blocks light.
     Sphere {
@@ -59,6 +62,9 @@ pub enum LightDoc {
         /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
+        /// Whether the light is part of the scene.
+        #[serde(default = "shown")]
+        enabled: bool,
     },
     /// A distant disc: all light arrives within half its angular diameter of one direction.
     Sun {
@@ -76,6 +82,9 @@ pub enum LightDoc {
         /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
+        /// Whether the light is part of the scene.
+        #[serde(default = "shown")]
+        enabled: bool,
     },
     /// Constant radiance from every direction.
     Environment {
@@ -88,6 +97,9 @@ pub enum LightDoc {
         /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
+        /// Whether the light is part of the scene.
+        #[serde(default = "shown")]
+        enabled: bool,
     },
     /// Radiance by direction from an equirectangular EXR or HDR image (linear sRGB; top row is +y).
     EnvironmentMap {
@@ -102,12 +114,15 @@ pub enum LightDoc {
         /// Visibility to camera rays.
         #[serde(default = "shown")]
         visible: bool,
+        /// Whether the light is part of the scene.
+        #[serde(default = "shown")]
+        enabled: bool,
     },
 }
 
 impl Default for LightDoc {
     fn default() -> Self {
-        Self::Environment { radiance: one(), scale: 1.0, visible: true }
+        Self::Environment { radiance: one(), scale: 1.0, visible: true, enabled: true }
     }
 }
 
@@ -126,6 +141,7 @@ impl LightDoc {
                     radiance: one(),
                     scale: 10.0,
                     visible: true,
+                    enabled: true,
                 },
             ),
             (
@@ -136,6 +152,7 @@ impl LightDoc {
                     radiance: one(),
                     scale: 30.0,
                     visible: true,
+                    enabled: true,
                 },
             ),
             (
@@ -146,12 +163,19 @@ impl LightDoc {
                     irradiance: one(),
                     scale: 3.0,
                     visible: true,
+                    enabled: true,
                 },
             ),
-            ("Environment", Self::Environment { radiance: one(), scale: 0.3, visible: true }),
+            ("Environment", Self::Environment { radiance: one(), scale: 0.3, visible: true, enabled: true }),
             (
                 "Environment map",
-                Self::EnvironmentMap { file: String::new(), rotate_deg: 0.0, scale: 1.0, visible: true },
+                Self::EnvironmentMap {
+                    file: String::new(),
+                    rotate_deg: 0.0,
+                    scale: 1.0,
+                    visible: true,
+                    enabled: true,
+                },
             ),
         ]
     }
@@ -177,6 +201,29 @@ impl LightDoc {
             | Self::Sun { visible, .. }
             | Self::Environment { visible, .. }
             | Self::EnvironmentMap { visible, .. } => *visible,
+        }
+    }
+
+    /// Returns whether the light is part of the scene.
+    #[must_use]
+    pub fn enabled(&self) -> bool {
+        match self {
+            Self::Rectangle { enabled, .. }
+            | Self::Sphere { enabled, .. }
+            | Self::Sun { enabled, .. }
+            | Self::Environment { enabled, .. }
+            | Self::EnvironmentMap { enabled, .. } => *enabled,
+        }
+    }
+
+    /// Whether the light is part of the scene, to be edited.
+    pub fn enabled_mut(&mut self) -> &mut bool {
+        match self {
+            Self::Rectangle { enabled, .. }
+            | Self::Sphere { enabled, .. }
+            | Self::Sun { enabled, .. }
+            | Self::Environment { enabled, .. }
+            | Self::EnvironmentMap { enabled, .. } => enabled,
         }
     }
 }

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 fn grey() -> SpectrumDoc {
     SpectrumDoc::Constant(0.5)
 }
+fn present() -> bool {
+    true
+}
 fn world_up() -> [f32; 3] {
     [0.0, 1.0, 0.0]
 }
@@ -25,6 +28,9 @@ pub enum ObjectDoc {
         /// Reflected fraction, 0 to 1.
         #[serde(default = "grey")]
         albedo: SpectrumDoc,
+        /// Whether the surface is part of the scene.
+        #[serde(default = "present")]
+        enabled: bool,
     },
     /// A solid box.
     Box {
@@ -38,6 +44,9 @@ pub enum ObjectDoc {
         /// Reflected fraction, 0 to 1.
         #[serde(default = "grey")]
         albedo: SpectrumDoc,
+        /// Whether the surface is part of the scene.
+        #[serde(default = "present")]
+        enabled: bool,
     },
 }
 
@@ -46,7 +55,10 @@ impl ObjectDoc {
     #[must_use]
     pub fn templates() -> Vec<(&'static str, Self)> {
         vec![
-            ("Ground plane", Self::Ground { point: [0.0, -0.5, 0.0], normal: world_up(), albedo: grey() }),
+            (
+                "Ground plane",
+                Self::Ground { point: [0.0, -0.5, 0.0], normal: world_up(), albedo: grey(), enabled: true },
+            ),
             (
                 "Box",
                 Self::Box {
@@ -54,6 +66,7 @@ impl ObjectDoc {
                     size: [0.3, 0.6, 0.3],
                     rotate_deg: [0.0, 20.0, 0.0],
                     albedo: grey(),
+                    enabled: true,
                 },
             ),
         ]
@@ -65,6 +78,21 @@ impl ObjectDoc {
         match self {
             Self::Ground { .. } => "Ground plane",
             Self::Box { .. } => "Box",
+        }
+    }
+
+    /// Returns whether the surface is part of the scene.
+    #[must_use]
+    pub fn enabled(&self) -> bool {
+        match self {
+            Self::Ground { enabled, .. } | Self::Box { enabled, .. } => *enabled,
+        }
+    }
+
+    /// Whether the surface is part of the scene, to be edited.
+    pub fn enabled_mut(&mut self) -> &mut bool {
+        match self {
+            Self::Ground { enabled, .. } | Self::Box { enabled, .. } => enabled,
         }
     }
 }

@@ -47,6 +47,13 @@ pub(super) const KEYS: &[Key] = &[
         "Horizontal field of view",
     )
     .unit("°"),
+    Key::new(
+        "camera.mirror",
+        Type::Bool,
+        Is("false"),
+        "Mirror",
+        "Exchanges left and right, for scenes of renderers with a camera of other handedness",
+    ),
     Key::new("film.width", SIDE, Is("960"), "Image width", "Columns of the image")
         .unit("px")
         .cure("an image needs at least one pixel"),

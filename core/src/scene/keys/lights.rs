@@ -98,6 +98,7 @@ pub(super) const KEYS: &[Key] = &[
         "Visible",
         "Visible to camera rays; the light illuminates the scene either way",
     ),
+    Key::new("lights.*.enabled", Type::Bool, Is("true"), "Enabled", "Whether the light is part of the scene"),
     Key::new("objects.*.kind", Type::Choice(&["ground", "box"]), Required, "Kind", "Kind of surface"),
     Key::new(
         "objects.*.point",
@@ -133,5 +134,12 @@ pub(super) const KEYS: &[Key] = &[
         Is("0.5"),
         "Albedo",
         "Fraction of incident light that is reflected, 0 to 1",
+    ),
+    Key::new(
+        "objects.*.enabled",
+        Type::Bool,
+        Is("true"),
+        "Enabled",
+        "Whether the surface is part of the scene",
     ),
 ];

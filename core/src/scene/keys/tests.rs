@@ -199,6 +199,9 @@ fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     put(&mut table, "film.width", 1.into());
     put(&mut table, "film.height", 1.into());
     put(&mut table, key.path, value);
+    if key.path == "medium.extent" {
+        put(&mut table, "medium.within", "everywhere".into());
+    }
     let mut doc = read(&table)?;
     // A view names media of a scene with several.
     if place.path.contains(".media") {
