@@ -223,7 +223,9 @@ fn info_describes_volumes_and_scenes() {
     let (one, two) = (scene("S2"), scene("S7"));
     assert_eq!((&one["medium"]["scale"], &one["media"][0]["scale"]), (&16.0.into(), &16.0.into()));
     assert_eq!((two["media"].as_array().unwrap().len(), &two["medium"]), (2, &Value::Null));
-    assert!(succeeds(&["info", &file("../assets/oracle/S7/scene.toml")]).contains("haze: homogeneous medium"));
+    assert!(
+        succeeds(&["info", &file("../assets/oracle/S7/scene.toml")]).contains("haze: homogeneous medium")
+    );
 }
 
 #[test]

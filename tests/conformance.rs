@@ -48,7 +48,7 @@ fn every_estimator_is_true_on_every_case() {
     assert!(failures.is_empty(), "{failures:#?}");
     assert_eq!(report.rows.len(), images, "every estimator is tested on every case");
     // The specified power: 1 % in the mean of every scene with every estimator, except for estimators that
-    // rarely hit the lights of three scenes by other renderers, which have a budget of paths instead.
+    // rarely hit the lights of a few scenes by other renderers, which have a budget of paths instead.
     let weak: Vec<_> =
         report.rows.iter().filter(|r| !(r.detectable <= 0.01 || budgeted.contains(&r.scene))).collect();
     assert!(weak.is_empty(), "{weak:#?}");

@@ -45,6 +45,26 @@ fn the_last_stretch_to_a_light_is_not_skipped() {
     assert!((dimmed / clear / (-2.0f64).exp() - 1.0).abs() < 0.05, "{clear} {dimmed}");
 }
 
+/// Without media light travels in straight lines, under every estimator and in both modes; a disabled medium
+/// is no medium.
+#[test]
+fn a_scene_without_media_shows_its_background() {
+    for media in ["", "[[medium]]\nenabled = false"] {
+        for mode in ["rgb", "spectral"] {
+            let light = "[[lights]]\nkind = \"environment\"";
+            let text = format!("{CAMERA}\n{media}\n{light}\n[estimator]\nmode = \"{mode}\"");
+            let doc = scene(&text.replace("majorant = 1", "majorant = 2"));
+            for entry in REGISTRY {
+                let (seen, error) = mean(&doc, entry.id, 64);
+                // Mean of the channels of constant radiance 1.
+                let white = if mode == "rgb" { 1.0 } else { (1.2050 + 0.9483 + 0.9086) / 3.0 };
+                let off = (seen - white).abs();
+                assert!(off < allowed(28) * error + 1e-4, "{}, {mode}: {seen} ± {error}", entry.id);
+            }
+        }
+    }
+}
+
 /// A sphere light emits outwards only: from inside it is black, with unidirectional sampling and with NEE.
 #[test]
 fn a_sphere_light_is_dark_inside() {

@@ -80,7 +80,7 @@ fn item_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) -> Option<Change> {
                 if count > 1 && index > 0 && button("▲", "Move up") {
                     change = Some(Change::MoveUp(index));
                 }
-                ui.with_layout(Layout::left_to_right(Align::Center).with_main_justify(true), |ui| {
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     let weak = Palette::get(ui).weak;
                     let text = RichText::new(&medium.name);
                     let text = if medium.enabled { text } else { text.color(weak).strikethrough() };

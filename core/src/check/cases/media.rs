@@ -69,7 +69,6 @@ fn absorbers() -> Result<Vec<Case>, CheckError> {
         (doc.camera.origin, doc.camera.target) = ([0.0, 0.0, 0.2], [0.0, 0.0, -1.0]);
     });
     let disabled = whole.varied("media/absorbers-without-one", |doc| doc.media[1].enabled = false);
-    let none = whole.varied("media/none", |doc| doc.media.clear());
     let exceeded = whole.varied("media/absorbers-exceeded", |doc| {
         doc.media[0].majorant.factor = 0.6;
         doc.media[1].majorant.factor = 0.8;
@@ -80,7 +79,6 @@ fn absorbers() -> Result<Vec<Case>, CheckError> {
     Ok(vec![
         inside.answered(through([0.7, 0.3, 2.2])),
         disabled.answered(through([1.0, 0.0, 4.0])),
-        none.answered(through([0.0; 3])),
         exceeded.among(&SEVERAL_COMPONENTS),
         shared.among(&SEVERAL_COMPONENTS),
         whole,
