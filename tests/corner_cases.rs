@@ -65,6 +65,46 @@ fn a_scene_without_media_shows_its_background() {
     }
 }
 
+/// A disabled light, surface or medium is absent: the image is that of the scene without it, bit for bit.
+#[test]
+fn a_disabled_part_of_a_scene_is_absent() {
+    let text = format!(
+        "{CAMERA}
+        [[medium]]
+        extinction = 2.0
+        [[medium]]
+        name = \"fog\"
+        within = \"everywhere\"
+        extent = 2.0
+        extinction = 0.3
+        enabled = false
+        [[lights]]
+        kind = \"sphere\"
+        center = [0.0, 1.5, 0.0]
+        radius = 0.3
+        scale = 5.0
+        enabled = false
+        [[lights]]
+        kind = \"environment\"
+        [[objects]]
+        kind = \"ground\"
+        point = [0.0, -0.6, 0.0]
+        enabled = false"
+    );
+    let doc = scene(&text.replace("majorant = 1", "majorant = 2"));
+    let mut without = doc.clone();
+    without.media.truncate(1);
+    without.lights.remove(0);
+    without.objects.clear();
+    let mut with = doc.clone();
+    with.media[1].enabled = true;
+    for entry in REGISTRY {
+        let [disabled, removed, enabled] = [&doc, &without, &with].map(|doc| mean(doc, entry.id, 16));
+        assert_eq!(disabled, removed, "{}", entry.id);
+        assert_ne!(disabled, enabled, "{}", entry.id);
+    }
+}
+
 /// A sphere light emits outwards only: from inside it is black, with unidirectional sampling and with NEE.
 #[test]
 fn a_sphere_light_is_dark_inside() {
