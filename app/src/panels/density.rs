@@ -5,7 +5,7 @@ use crate::model::{Command, GridLists, Purpose};
 use crate::widgets::{Value, hint, key, path_field, row, row_of, segmented};
 use egui::{ComboBox, Ui};
 use majorant_core::medium::{Interpolation, Precision};
-use majorant_core::scene::{DensityDoc, GridRef};
+use majorant_core::scene::{DensityDoc, GridRef, Within};
 use std::path::Path;
 
 /// Panel of the density.
@@ -33,6 +33,7 @@ impl Panel for Density {
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
         match cx.draft.medium_at(cx.medium).density.grid() {
+            None if cx.draft.medium_at(cx.medium).within == Within::Everywhere => "uniform".into(),
             None => "uniform cube".into(),
             Some(grid) => Path::new(&grid.file)
                 .file_name()
@@ -48,11 +49,14 @@ impl Panel for Density {
             .show(ui);
         source_ui(ui, cx);
         storage_ui(ui, cx);
-        placement::placement_ui(
-            ui,
-            &mut cx.draft.medium_at_mut(cx.medium).placement,
-            &cx.opened.medium_at(cx.medium).placement,
-        );
+        // A medium without a box has no placement.
+        if cx.draft.medium_at(cx.medium).within == Within::Grid {
+            placement::placement_ui(
+                ui,
+                &mut cx.draft.medium_at_mut(cx.medium).placement,
+                &cx.opened.medium_at(cx.medium).placement,
+            );
+        }
     }
 }
 
