@@ -49,7 +49,7 @@ fn the_last_stretch_to_a_light_is_not_skipped() {
 /// is no medium.
 #[test]
 fn a_scene_without_media_shows_its_background() {
-    for media in ["", "[[medium]]\nenabled = false"] {
+    for media in ["", "[[media]]\nenabled = false"] {
         for mode in ["rgb", "spectral"] {
             let light = "[[lights]]\nkind = \"environment\"";
             let text = format!("{CAMERA}\n{media}\n{light}\n[estimator]\nmode = \"{mode}\"");
@@ -70,9 +70,9 @@ fn a_scene_without_media_shows_its_background() {
 fn a_disabled_part_of_a_scene_is_absent() {
     let text = format!(
         "{CAMERA}
-        [[medium]]
+        [[media]]
         extinction = 2.0
-        [[medium]]
+        [[media]]
         name = \"fog\"
         within = \"everywhere\"
         extent = 2.0

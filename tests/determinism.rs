@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
 use majorant_core::scene::Limits;
-use majorant_core::scene::{ObjectDoc, SceneDoc};
+use majorant_core::scene::{MaterialDoc, ObjectDoc, SceneDoc, ShapeDoc};
 use majorant_core::session::{Status, ViewId};
 use majorant_core::spectrum::SpectrumDoc;
 use majorant_tests::session::{Watched, assert_same, endless, finished, job, small_doc};
@@ -124,12 +124,9 @@ fn endless_scenes() -> [SceneDoc; 2] {
     // A closed white room without a medium: the path has no collisions.
     let mut room = dense.clone();
     room.medium_mut().extinction = SpectrumDoc::Constant(0.0);
-    room.objects.push(ObjectDoc::Box {
-        center: [0.0; 3],
-        size: [3.0; 3],
-        rotate_deg: [0.0; 3],
-        albedo: SpectrumDoc::Constant(1.0),
-        enabled: true,
+    room.objects.push(ObjectDoc {
+        material: MaterialDoc::Diffuse { albedo: SpectrumDoc::Constant(1.0) },
+        ..ObjectDoc::new(ShapeDoc::Box { center: [0.0; 3], size: [3.0; 3], rotate_deg: [0.0; 3] })
     });
     [dense, room]
 }

@@ -13,6 +13,8 @@ mod laboratory;
 mod lessons;
 #[path = "gui/media.rs"]
 mod media;
+#[path = "gui/objects.rs"]
+mod objects;
 #[path = "gui/provenance.rs"]
 mod provenance;
 #[path = "gui/self_check.rs"]

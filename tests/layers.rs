@@ -9,7 +9,8 @@ type Layers = &'static [&'static [&'static str]];
 const CORE: Layers = &[
     &["math"],
     &["spectrum"],
-    &["phase", "surface", "film"],
+    &["phase", "material", "film"],
+    &["surface"],
     &["medium", "light"],
     &["transmittance"],
     &["scene", "measure"],

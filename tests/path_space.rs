@@ -15,6 +15,7 @@
 use glam::Vec3;
 use majorant_core::estimator::Settings;
 use majorant_core::io::{Library, scene_file};
+use majorant_core::light::LightPoint;
 use majorant_core::math::{Ray, Sampler};
 use majorant_core::medium::{
     AnyMedium, LocalMedia, LocalMedium, MajorantSegment, Medium, Member, One, PlacedMedium, Several,
@@ -54,6 +55,13 @@ struct Stretch {
     steps: Vec<Step>,
     /// Distance to the light, for a segment that ends there.
     end: f32,
+}
+
+impl Stretch {
+    /// The end of the segment as a point of a light that is not a mesh.
+    fn light_point(&self) -> LightPoint {
+        LightPoint { direction: self.ray.direction, distance: self.end, triangle: 0 }
+    }
 }
 
 /// Majorant optical depth from `from` to `to` along a ray, per component.
@@ -385,7 +393,7 @@ impl<M: Media> Setup<'_, M> {
             }
             let vertex: Vertex = vertex.unwrap();
             let towards = world.directions(&vertex).towards(&vertex, last.ray.direction);
-            let light = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
+            let light = world.aim_density(&vertex, path.light, &last.light_point());
             let after = (&last.ray, last.steps.as_slice(), last.end);
 
             let mut link_term = Term { p: term.p * f64::from(light), f: term.f };
@@ -441,7 +449,7 @@ impl<M: Media> Setup<'_, M> {
             let point = at.point;
             let vertex = world.scattering_vertex(at, &scattering.ray);
             let towards = world.directions(&vertex).towards(&vertex, last.ray.direction);
-            let nee = world.aim_density(&vertex, path.light, last.ray.direction, last.end);
+            let nee = world.aim_density(&vertex, path.light, &last.light_point());
             let reached = Reached::through(passage, at);
             let light: LightDensities = reached.light_densities(&world, path.light, point, nee);
             let after = (&last.ray, last.steps.as_slice(), last.end);
@@ -595,7 +603,7 @@ fn end_of<M: LocalMedia<N>, C: Components<N>, const N: usize>(
 
 /// A second medium: chromatic in another way, with another phase function, half beside the first.
 const BESIDE: &str = "
-        [[medium]]
+        [[media]]
         name = 'beside'
         extinction = '430:0.7, 540:2.5, 620:1'
         albedo = '430:0.3, 620:0.95'
@@ -604,7 +612,7 @@ const BESIDE: &str = "
 
 /// A third medium, without a grid and beyond the others.
 const AROUND: &str = "
-        [[medium]]
+        [[media]]
         name = 'around'
         extinction = '430:0.2, 620:0.1'
         albedo = 0.8
@@ -650,7 +658,7 @@ fn files() -> Library {
 fn document(grid: &str, mode: &str) -> SceneDoc {
     let toml = format!(
         "majorant = 2
-        [[medium]]
+        [[media]]
         extinction = \"430:3, 540:1.2, 620:2\"
         albedo = \"430:0.9, 620:0.5\"
         phase = {{ kind = \"henyey-greenstein\", g = 0.4 }}

@@ -8,11 +8,31 @@ use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, DensityDoc, DirectionSampling,
     DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics,
-    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MeasureId, MediumDoc, MediumOverrides,
-    Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ToneCurve, Tracking, ViewDoc,
-    ViewOverrides, WhenExceeded, Within,
+    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MaterialDoc, MeasureId, MediumDoc,
+    MediumOverrides, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ShapeDoc,
+    SurfaceEmissionDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides, WhenExceeded, Within,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
+
+/// Objects of every kind, with names, materials, placement and emission.
+fn objects() -> Vec<ObjectDoc> {
+    let mut objects: Vec<ObjectDoc> = ObjectDoc::templates().into_iter().map(|(_, object)| object).collect();
+    for (number, object) in objects.iter_mut().enumerate() {
+        object.name = format!("object {number}");
+        object.enabled = number != 2;
+        if number % 2 == 1 {
+            let emission = SurfaceEmissionDoc { scale: 3.0, visible: false, ..SurfaceEmissionDoc::default() };
+            object.emission = Some(emission);
+            object.material = MaterialDoc::Diffuse { albedo: SpectrumDoc::Rgb([0.1, 0.2, 0.3]) };
+        }
+        if let ShapeDoc::Mesh { file, placement } = &mut object.shape {
+            *file = "lantern.obj".into();
+            placement.fit = Some(2.0);
+        }
+    }
+    objects[2].material = MaterialDoc::Interface {};
+    objects
+}
 
 /// A document in which every key differs from its default.
 fn everything() -> SceneDoc {
@@ -83,7 +103,7 @@ fn everything() -> SceneDoc {
             .map(|(_, light)| light)
             .filter(|l| !matches!(l, LightDoc::EnvironmentMap { .. }))
             .collect(),
-        objects: ObjectDoc::templates().into_iter().map(|(_, object)| object).collect(),
+        objects: objects(),
         estimator: EstimatorDoc {
             id: "nee".into(),
             mode: Mode::Rgb,
@@ -297,7 +317,7 @@ fn files_of_version_1_are_read_and_saved_as_version_2() {
     assert_eq!(doc, parse(new, "new.toml").unwrap());
     assert_eq!((doc.majorant, doc.media.len(), doc.media[0].name.as_str()), (2, 1, "medium"));
     let saved = to_toml(&doc);
-    assert!(saved.starts_with("majorant = 2\n") && saved.contains("[[medium]]"), "{saved}");
+    assert!(saved.starts_with("majorant = 2\n") && saved.contains("[[media]]"), "{saved}");
     assert_eq!(parse("majorant = 1\n", "old.toml").unwrap().media.len(), 1);
     assert_eq!(parse("majorant = 2\n", "new.toml").unwrap().media, []);
     let message = parse("majorant = 3\n", "later.toml").unwrap_err().to_string();
@@ -305,9 +325,9 @@ fn files_of_version_1_are_read_and_saved_as_version_2() {
 }
 
 const SEVERAL: &str = "majorant = 2
-[[medium]]
+[[media]]
 name = \"cloud\"
-[[medium]]
+[[media]]
 name = \"fog\"
 within = \"everywhere\"
 extent = 5.0
@@ -337,36 +357,92 @@ fn overrides_address_media_by_their_names() {
     assert!(override_keys(&none, &["medium.scale=2".to_owned()]).is_err());
 }
 
+/// Objects of version 1 have an albedo; later ones a material, a name and an emission.
+#[test]
+fn objects_of_both_versions_are_read_and_saved_with_their_material() {
+    let old = "majorant = 1\n[[objects]]\nkind = \"ground\"\nalbedo = 0.25\n";
+    let doc = parse(old, "old.toml").unwrap();
+    let saved = to_toml(&doc);
+    assert!(saved.contains("[objects.material]\nkind = \"diffuse\"\nalbedo = 0.25"), "{saved}");
+    assert_eq!(parse(&saved, "saved.toml").unwrap(), doc);
+    let set = override_keys(&doc, &["objects.0.albedo=0.75".to_owned()]).unwrap();
+    let same = override_keys(&doc, &["objects.0.material.albedo=0.75".to_owned()]).unwrap();
+    assert_eq!(set, same);
+    assert_ne!(set, doc);
+    let filled = "majorant = 2\n[[media]]\nwithin = \"ball\"\n[[objects]]\nname = \"ball\"\nkind = \"sphere\"\n\
+                  center = [0.0, 0.0, 0.0]\nradius = 1.0\nmaterial = { kind = \"interface\" }\n";
+    let mut doc = parse(filled, "filled.toml").unwrap();
+    assert_eq!(parse(&to_toml(&doc), "saved.toml").unwrap(), doc);
+    doc.rename_object(0, "marble".into());
+    assert_eq!(doc.media[0].within, Within::Object("marble".into()));
+    doc.remove_object(0);
+    assert_eq!(doc.media[0].within, Within::Grid);
+}
+
+/// Invalid combinations of objects and media: line and a word of the message.
+#[test]
+fn objects_that_do_not_fit_are_rejected_where_they_stand() {
+    let sphere = "kind = \"sphere\"\ncenter = [0.0, 0.0, 0.0]\nradius = 1.0\n";
+    for (text, line, word) in [
+        ("[[media]]\nwithin = \"ball\"\n".to_owned(), 3, "no closed object has a name"),
+        (
+            format!("[[media]]\nwithin = \"bal\"\n[[objects]]\nname = \"ball\"\n{sphere}"),
+            3,
+            "closed objects are `ball`",
+        ),
+        ("[[media]]\nwithin = \"g\"\n[[objects]]\nname = \"g\"\nkind = \"ground\"\n".into(), 3, "no inside"),
+        (
+            format!("[[objects]]\nname = \"a\"\n{sphere}[[objects]]\nname = \"a\"\n{sphere}"),
+            8,
+            "another object",
+        ),
+        (format!("[[objects]]\nname = \"grid\"\n{sphere}"), 3, "name of a region"),
+        ("[[objects]]\nkind = \"ground\"\nemission = { radiance = 1.0 }\n".into(), 4, "infinite plane"),
+        (
+            format!(
+                "[[objects]]\n{sphere}material = {{ kind = \"interface\" }}\nemission = {{ radiance = 1.0 }}\n"
+            ),
+            7,
+            "no surface that emits",
+        ),
+        ("[[objects]]\nkind = \"mesh\"\nfile = \"\"\n".into(), 4, "names no mesh"),
+        (format!("[[objects]]\n{sphere}normal = [0.0, 1.0, 0.0]\n"), 6, "unknown field"),
+        (format!("[[objects]]\n{sphere}material = {{ kind = \"velvet\" }}\n"), 6, "velvet"),
+        (format!("[[objects]]\n{sphere}material = {{ kind = \"diffuse\", albedo = 1.5 }}\n"), 6, "0 to 1"),
+    ] {
+        let message = parse(&format!("majorant = 2\n{text}"), "scene.toml").unwrap_err().to_string();
+        assert!(message.contains(word), "{message}");
+        let at: usize = message.split(':').nth(1).unwrap().parse().unwrap();
+        assert_eq!(at, line, "{message}");
+    }
+}
+
 /// Invalid combinations of media: line, column and a word of the message.
 #[test]
 fn media_that_do_not_fit_together_are_rejected_where_they_stand() {
     for (text, line, word) in [
-        ("[[medium]]\nname = \"a\"\n[[medium]]\nname = \"a\"\n", 5, "another medium"),
-        ("[[medium]]\nname = \"a.b\"\n", 3, "choose another name"),
-        ("[[medium]]\n[[medium]]\nname = \"b\"\nscale = -1.0\n", 5, "medium[1].scale"),
-        ("[[medium]]\nextent = 3.0\n", 3, "no effect"),
+        ("[[media]]\nname = \"a\"\n[[media]]\nname = \"a\"\n", 5, "another medium"),
+        ("[[media]]\nname = \"a.b\"\n", 3, "choose another name"),
+        ("[[media]]\n[[media]]\nname = \"b\"\nscale = -1.0\n", 5, "medium[1].scale"),
+        ("[[media]]\nextent = 3.0\n", 3, "within `everywhere` only"),
         (
-            "[[medium]]\nwithin = \"everywhere\"\ndensity = { kind = \"grid\", file = \"a.vdb\" }\n",
+            "[[media]]\nwithin = \"everywhere\"\ndensity = { kind = \"grid\", file = \"a.vdb\" }\n",
             3,
             "needs uniform coefficients",
         ),
         (
-            "[[medium]]\nwithin = \"everywhere\"\nemission = { temperature = { file = \"a.vdb\" } }\n",
+            "[[media]]\nwithin = \"everywhere\"\nemission = { temperature = { file = \"a.vdb\" } }\n",
             3,
             "needs uniform coefficients",
         ),
-        ("[[medium]]\nwithin = \"nowhere\"\n", 3, "everywhere"),
-        ("[[medium]]\n[[compare.views]]\nmedia = [{ name = \"b\" }]\n", 4, "this scene has not"),
+        ("[[media]]\nwithin = \"nowhere\"\n", 3, "everywhere"),
+        ("[[media]]\n[[compare.views]]\nmedia = [{ name = \"b\" }]\n", 4, "this scene has not"),
         (
-            "[[medium]]\n[[medium]]\nname = 'b'\n[[compare.views]]\nmedia = [{ name = 'c' }]\n",
+            "[[media]]\n[[media]]\nname = 'b'\n[[compare.views]]\nmedia = [{ name = 'c' }]\n",
             6,
             "not a medium of the scene",
         ),
-        (
-            "[[medium]]\n[[medium]]\nname = 'b'\n[[compare.views]]\nmajorant = { factor = 2.0 }\n",
-            6,
-            "several",
-        ),
+        ("[[media]]\n[[media]]\nname = 'b'\n[[compare.views]]\nmajorant = { factor = 2.0 }\n", 6, "several"),
     ] {
         let message = parse(&format!("majorant = 2\n{text}"), "scene.toml").unwrap_err().to_string();
         assert!(message.contains(word), "{message}");

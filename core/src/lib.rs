@@ -22,6 +22,7 @@ pub mod film;
 pub mod inspect;
 pub mod io;
 pub mod light;
+pub mod material;
 pub mod math;
 pub mod measure;
 pub mod medium;

@@ -123,7 +123,7 @@ impl Place {
         };
         let medium = |name: &str, share: f64, albedo: String| {
             format!(
-                "[[medium]]
+                "[[media]]
                 name = \"{name}\"
                 scale = {}
                 extinction = {extinction}

@@ -2,11 +2,12 @@
 
 use glam::{Vec2, Vec3};
 use majorant_core::io::Library;
-use majorant_core::light::{Emitter, Light, LightSample, LobeParts};
+use majorant_core::light::{Emitter, Light, LightPoint, LightSample, LobeParts};
 use majorant_core::math::{Ray, Sampler};
 use majorant_core::phase::{Phase, PhaseDoc};
-use majorant_core::scene::{LightDoc, Scene, SceneDoc, build};
-use majorant_core::surface::Role;
+use majorant_core::scene::{
+    LightDoc, ObjectDoc, PlacementDoc, Scene, SceneDoc, ShapeDoc, SurfaceEmissionDoc, build,
+};
 use majorant_tests::chi2::Family;
 use std::path::Path;
 
@@ -29,8 +30,59 @@ fn write_skies(folder: &Path) {
     exr::prelude::write_rgb_file(folder.join("fine.exr"), 64, 32, fine).unwrap();
 }
 
+/// A light, or an object that emits.
+#[derive(Clone)]
+enum Emitting {
+    Light(LightDoc),
+    Object(ObjectDoc),
+}
+
+/// Part of a sphere about the origin as a mesh whose outer side is the inner side of the sphere, so that all of
+/// it is seen from every point inside; the rows of triangles differ in size.
+fn dome() -> String {
+    let mut text = String::new();
+    let (rows, columns) = (5, 7);
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let theta = 0.9 * (row as f32 / rows as f32).powi(2);
+            let phi = 4.0 * column as f32 / columns as f32;
+            let (sin, cos) = theta.sin_cos();
+            text += &format!("v {} {} {}\n", 2.0 * sin * phi.cos(), 2.0 * sin * phi.sin(), 2.0 * cos);
+        }
+    }
+    for row in 0..rows {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column + 1;
+            let b = a + columns + 1;
+            text += &format!("f {a} {} {b}\nf {b} {} {}\n", a + 1, a + 1, b + 1);
+        }
+    }
+    text
+}
+
+/// Objects of every kind that can emit.
+fn emitting_objects() -> Vec<(String, Emitting)> {
+    let mut objects = Vec::new();
+    let mut add = |name: &str, shape: ShapeDoc| {
+        let emission = Some(SurfaceEmissionDoc::default());
+        objects.push((name.to_owned(), Emitting::Object(ObjectDoc { emission, ..ObjectDoc::new(shape) })));
+    };
+    let [center, up] = [[0.2, 1.6, 0.3], [0.0, 1.0, 0.0]];
+    add("Disk", ShapeDoc::Disk { center, normal: [-0.2, -1.0, 0.1], radius: 0.8 });
+    add("Emitting sphere", ShapeDoc::Sphere { center, radius: 0.4 });
+    let target = [0.0; 3];
+    add("Emitting rectangle", ShapeDoc::Rectangle { center, target, up, size: [0.7, 1.5] });
+    let mesh = |placement| ShapeDoc::Mesh { file: "dome.obj".into(), placement };
+    add("Mesh", mesh(PlacementDoc::default()));
+    // Stretched and mirrored, it still encloses the points.
+    let scale = [1.5, -1.1, 1.2];
+    let rotate_deg = [0.0, 0.0, 25.0];
+    add("Mesh, mirrored", mesh(PlacementDoc { scale, rotate_deg, ..PlacementDoc::default() }));
+    objects
+}
+
 /// One light of each kind, and difficult cases.
-fn lights() -> Vec<(String, LightDoc)> {
+fn lights() -> Vec<(String, Emitting)> {
     let map = |file: &str, rotate_deg| LightDoc::EnvironmentMap {
         file: file.into(),
         rotate_deg,
@@ -43,11 +95,11 @@ fn lights() -> Vec<(String, LightDoc)> {
         if let LightDoc::EnvironmentMap { file, .. } = &mut doc {
             *file = "coarse.exr".into();
         }
-        lights.push((name.to_owned(), doc.clone()));
+        lights.push((name.to_owned(), Emitting::Light(doc.clone())));
         let mut vary = |what: &str, change: &dyn Fn(&mut LightDoc)| {
             let mut doc = doc.clone();
             change(&mut doc);
-            lights.push((format!("{name}, {what}"), doc));
+            lights.push((format!("{name}, {what}"), Emitting::Light(doc)));
         };
         match &doc {
             LightDoc::Rectangle { .. } => vary("wide and at a slant", &|doc| {
@@ -78,32 +130,40 @@ fn lights() -> Vec<(String, LightDoc)> {
             }
         }
     }
+    lights.extend(emitting_objects());
     lights
 }
 
 /// A scene with one light and no occluders.
-fn scene(light: &LightDoc, folder: &Path) -> Scene {
-    let doc = SceneDoc { lights: vec![light.clone()], ..SceneDoc::default() };
-    build(&doc, &mut Library::default().with_base(folder)).unwrap_or_else(|e| panic!("{e}"))
+fn scene(light: &Emitting, folder: &Path) -> Scene {
+    let mut doc = SceneDoc { lights: Vec::new(), ..SceneDoc::default() };
+    match light.clone() {
+        Emitting::Light(light) => doc.lights.push(light),
+        Emitting::Object(object) => doc.objects.push(object),
+    }
+    let mut library = Library::default().with_base(folder).with_volume("dome.obj", dome().into_bytes());
+    build(&doc, &mut library).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Distance to the emitting side of the light along a ray; `None` if the ray misses it.
-fn reach(scene: &Scene, ray: &Ray) -> Option<f32> {
+/// Point of the emitting side of the light along a ray; `None` if the ray misses it.
+fn reach(scene: &Scene, ray: &Ray) -> Option<LightPoint> {
     let end = scene.nearest_surface(ray, f32::INFINITY, false);
-    match end.role() {
-        Some(Role::Light(_)) => (ray.direction.dot(end.normal()) < 0.0).then(|| end.t()),
-        _ => scene.lights[0].is_behind(ray.direction).then_some(f32::INFINITY),
-    }
+    let met = match end.light() {
+        Some(_) => ray.direction.dot(end.normal()) < 0.0,
+        None => end.is_none() && scene.lights[0].is_behind(ray.direction),
+    };
+    met.then(|| end.light_point(ray))
 }
 
 /// Checks the density and the distance of a sample.
 fn check(name: &str, scene: &Scene, from: Vec3, s: &LightSample) {
-    let density = scene.lights[0].density(from, s.direction, s.distance);
+    let (direction, distance) = (s.point.direction, s.point.distance);
+    let density = scene.lights[0].density(from, &s.point);
     assert!((s.density / density - 1.0).abs() < 1e-3, "{name}: density {} is not {density}", s.density);
     // Grazing rays may miss by rounding; these are covered by the χ² test.
-    if let Some(distance) = reach(scene, &Ray { origin: from, direction: s.direction }) {
-        let agrees = distance == s.distance || (distance - s.distance).abs() < 2e-3 * distance;
-        assert!(agrees, "{name}: a sample at {} where the light is at {distance}", s.distance);
+    if let Some(met) = reach(scene, &Ray { origin: from, direction }) {
+        let agrees = met.distance == distance || (met.distance - distance).abs() < 2e-3 * distance;
+        assert!(agrees, "{name}: a sample at {distance} where the light is at {}", met.distance);
     }
 }
 
@@ -121,11 +181,11 @@ fn directions_towards_every_light_follow_their_density() {
             let draw = || {
                 let s = light.sample(from, sampler.next_2d()).expect("the point is lit");
                 check(&name, &scene, from, &s);
-                s.direction
+                s.point.direction
             };
             let density = |direction: Vec3| {
-                let distance = reach(&scene, &Ray { origin: from, direction });
-                distance.map_or(0.0, |distance| light.density(from, direction, distance))
+                let met = reach(&scene, &Ray { origin: from, direction });
+                met.map_or(0.0, |met| light.density(from, &met))
             };
             family.directions(&name, draw, density);
         }
@@ -136,7 +196,7 @@ fn directions_towards_every_light_follow_their_density() {
 /// Incident directions: at a light, past it, away from it, and along coordinate axes.
 fn incoming(scene: &Scene, from: Vec3) -> Vec<Vec3> {
     let mut sampler = Sampler::new(0, 0, 0);
-    let at = scene.lights[0].sample(from, sampler.next_2d()).expect("the point is lit").direction;
+    let at = scene.lights[0].sample(from, sampler.next_2d()).expect("the point is lit").point.direction;
     let beside = (at + 0.3 * at.any_orthonormal_vector()).normalize();
     let across = at.any_orthonormal_vector();
     vec![at, beside, across, -beside, -at, Vec3::X, Vec3::NEG_Z]
@@ -171,22 +231,22 @@ fn products_of_light_and_lobe_are_drawn_by_their_densities() {
                 let mut by_light = || {
                     let s = parts.sample_light(0, light, from, sampler.next_2d());
                     let product = s.map_or(0.0, |s| {
-                        let again = parts.light_density(0, light, from, s.direction, s.distance);
+                        let again = parts.light_density(0, light, from, &s.point);
                         assert!(
                             (s.density / again - 1.0).abs() < 1e-3,
                             "{name}: {} is not {again}",
                             s.density
                         );
-                        lobe(s.direction).sqrt() / f64::from(s.density)
+                        lobe(s.point.direction).sqrt() / f64::from(s.density)
                     });
                     let s = light.sample(from, sampler.next_2d()).expect("the point is lit");
-                    let inside = doc_is_around(&doc) || parts.density(s.direction) > 0.0;
+                    let inside = doc_is_around(&doc) || parts.density(s.point.direction) > 0.0;
                     assert!(
                         inside,
                         "{name}: the part of the lobe does not contain the light at {}",
-                        s.direction
+                        s.point.direction
                     );
-                    product - lobe(s.direction).sqrt() / f64::from(s.density)
+                    product - lobe(s.point.direction).sqrt() / f64::from(s.density)
                 };
                 compare(&format!("{name}: connections"), &mut by_light);
 
@@ -207,8 +267,9 @@ fn products_of_light_and_lobe_are_drawn_by_their_densities() {
     family.judge();
 }
 
-fn doc_is_around(doc: &LightDoc) -> bool {
-    matches!(doc, LightDoc::Environment { .. } | LightDoc::EnvironmentMap { .. })
+fn doc_is_around(light: &Emitting) -> bool {
+    use LightDoc::{Environment, EnvironmentMap};
+    matches!(light, Emitting::Light(Environment { .. } | EnvironmentMap { .. }))
 }
 
 #[test]
@@ -221,12 +282,13 @@ fn a_rectangle_is_dark_behind_and_a_sphere_inside() {
             }
             _ => continue,
         };
-        let light = &scene(&doc, Path::new("")).lights[0];
+        let light = &scene(&Emitting::Light(doc), Path::new("")).lights[0];
         for u in [Vec2::ZERO, Vec2::new(0.3, 0.7)] {
             assert!(light.sample(dark, u).is_none(), "{name}");
         }
         let to_light = center - dark;
         let distance = to_light.length();
-        assert_eq!(light.density(dark, to_light / distance, distance), 0.0, "{name}");
+        let at = LightPoint { direction: to_light / distance, distance, triangle: 0 };
+        assert_eq!(light.density(dark, &at), 0.0, "{name}");
     }
 }

@@ -3,7 +3,7 @@
 use super::{Failure, options, print_line};
 use majorant_core::io::volume::{self, FileInfo, GridInfo, ReadLimits, VoxelGrid};
 use majorant_core::io::{picture, scene_file};
-use majorant_core::scene::SceneDoc;
+use majorant_core::scene::{SceneDoc, Within};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args, Debug)]
@@ -141,12 +141,10 @@ fn exr(path: &Path, json: bool) -> Result<(), Failure> {
 /// Scene as JSON: `media` lists all media, and `medium` is the only medium of a scene that has one.
 fn scene_json(doc: &SceneDoc) -> Result<serde_json::Value, Failure> {
     let mut value = serde_json::to_value(doc)?;
-    if let Some(fields) = value.as_object_mut() {
-        let media = fields.remove("medium").unwrap_or_default();
-        if let Some([only]) = media.as_array().map(Vec::as_slice) {
-            fields.insert("medium".into(), only.clone());
-        }
-        fields.insert("media".into(), media);
+    let media = value.get("media").and_then(serde_json::Value::as_array).map(Vec::as_slice);
+    if let Some([only]) = media {
+        let only = only.clone();
+        value["medium"] = only;
     }
     Ok(value)
 }
@@ -165,15 +163,22 @@ fn scene(path: &Path, json: bool) -> Result<(), Failure> {
         doc.objects.len(),
         doc.estimator.id
     ))?;
+    for object in doc.objects.iter().filter(|object| !object.name.is_empty()) {
+        print_line(&format!("object {}: {}", object.name, object.shape.kind_name().to_lowercase()))?;
+    }
     for medium in &doc.media {
         let density = match medium.density.grid() {
             Some(grid) => format!("density from {}", grid.file),
             None => "homogeneous medium".to_owned(),
         };
+        let within = match &medium.within {
+            Within::Object(name) => format!(" within {name}"),
+            Within::Grid | Within::Everywhere => String::new(),
+        };
         let disabled = if medium.enabled { "" } else { ", disabled" };
         match doc.media.len() {
-            1 => print_line(&format!("{density}{disabled}"))?,
-            _ => print_line(&format!("{}: {density}{disabled}", medium.name))?,
+            1 => print_line(&format!("{density}{within}{disabled}"))?,
+            _ => print_line(&format!("{}: {density}{within}{disabled}", medium.name))?,
         }
     }
     Ok(())

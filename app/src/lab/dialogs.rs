@@ -33,6 +33,7 @@ impl PathPrompt {
             }
             Purpose::PhaseTable => ("Open phase function", "Open", "path/to/lobe.csv"),
             Purpose::EnvironmentMap(_) => ("Open environment map", "Open", "path/to/sky.exr"),
+            Purpose::Mesh(_) => ("Open mesh", "Open", "path/to/mesh.ply"),
             Purpose::Reference => ("Open reference", "Open", "path/to/reference.exr"),
             Purpose::ExportReport => ("Export comparison", "Export", "path/to/folder"),
             Purpose::SaveScene => ("Save scene", "Save", "path/to/scene.toml"),
@@ -51,6 +52,7 @@ impl PathPrompt {
             Purpose::TemperatureFile => "Aligned with the density if both files contain a transform.",
             Purpose::PhaseTable => "A text file with an angle and a value on each line.",
             Purpose::EnvironmentMap(_) => "An equirectangular image, linear sRGB.",
+            Purpose::Mesh(_) => "Triangles or polygons as OBJ, PLY or glTF; materials are not read.",
             Purpose::Reference => {
                 "An EXR image of this scene; its standard errors are used if it contains any."
             }

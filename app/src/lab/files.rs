@@ -7,9 +7,11 @@ use crate::model::WallEdit;
 use crate::model::own_volume::{Look, with_volume};
 use crate::widgets::format_number;
 use majorant_core::compare;
-use majorant_core::io::picture;
 use majorant_core::io::volume::EXTENSIONS;
-use majorant_core::scene::{DensityDoc, GridRef, LightDoc, PhaseDoc, ReferenceDoc};
+use majorant_core::io::{mesh, picture};
+use majorant_core::scene::{
+    DensityDoc, GridRef, LightDoc, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, ShapeDoc,
+};
 use std::path::{Path, PathBuf};
 
 /// Kind of a file, by its extension.
@@ -18,6 +20,7 @@ pub(super) enum FileKind {
     Scene,
     Volume,
     Panorama,
+    Mesh,
     Unknown,
 }
 
@@ -29,6 +32,7 @@ impl FileKind {
             Some("toml") => Self::Scene,
             Some(volume) if EXTENSIONS.contains(&volume) => Self::Volume,
             Some("exr" | "hdr") => Self::Panorama,
+            Some(mesh) if mesh::ENDINGS.contains(&mesh) => Self::Mesh,
             _ => Self::Unknown,
         }
     }
@@ -42,8 +46,9 @@ impl LabApp {
             FileKind::Volume => self.attempt(|app| app.tasks.look_into(path)),
             FileKind::Panorama if self.is_render(&path) => self.use_as_reference(&path),
             FileKind::Panorama => self.light_with(&path),
+            FileKind::Mesh => self.add_mesh(&path),
             FileKind::Unknown => self.messages.fail(format!(
-                "{}: unsupported file type. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr.",
+                "{}: unsupported file type. Scenes are .toml, volumes .vdb, .npy, .vol or .raw, environment maps .exr or .hdr, meshes .obj, .ply, .gltf or .glb.",
                 path.display()
             )),
         }
@@ -125,7 +130,29 @@ impl LabApp {
                 }
                 self.document.edit(doc);
             }
+            Purpose::Mesh(index) => {
+                let name = self.short_name(&path);
+                let mut doc = self.doc().clone();
+                let shape = doc.objects.get_mut(index).map(|object| &mut object.shape);
+                if let Some(ShapeDoc::Mesh { file, .. }) = shape {
+                    *file = name;
+                }
+                self.document.edit(doc);
+            }
         }
+    }
+
+    /// Adds a mesh to the objects, fitted to length 1 and centred on the origin.
+    fn add_mesh(&mut self, path: &Path) {
+        let placement = PlacementDoc { fit: Some(1.0), ..PlacementDoc::default() };
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let mut doc = self.doc().clone();
+        let mut object = ObjectDoc::new(ShapeDoc::Mesh { file: self.short_name(path), placement });
+        object.name = doc.free_object_name(&stem);
+        doc.objects.push(object);
+        self.document.edit(doc);
+        self.messages
+            .say(Severity::Done, format!("{} is added to the objects, fitted to length 1.", path.display()));
     }
 
     /// File name as stored in the document: relative to the scene if the file is below the scene's directory.

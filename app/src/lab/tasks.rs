@@ -7,7 +7,7 @@ use crate::background::{Background, Reply, Wake};
 use crate::model::own_volume::{self, Look};
 use majorant_core::compare::{Experiment, Reference, report};
 use majorant_core::film::Snapshot;
-use majorant_core::io::{Library, export, volume};
+use majorant_core::io::{Library, export, mesh, volume};
 use majorant_core::scene::SceneDoc;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -179,6 +179,7 @@ fn dialog(purpose: Purpose, directory: &Path) -> Option<PathBuf> {
         }
         Purpose::PhaseTable => ("Open phase function", "Tables", &["csv", "txt", "dat"], ""),
         Purpose::EnvironmentMap(_) => ("Open environment map", "Images", &["exr", "hdr"], ""),
+        Purpose::Mesh(_) => ("Open mesh", "Meshes", &mesh::ENDINGS, ""),
         Purpose::SaveScene => ("Save scene", "Scenes", &["toml"], "scene.toml"),
         Purpose::Reference => ("Open reference", "OpenEXR", &["exr"], ""),
         Purpose::ExportReport => return dialog.set_title("Export comparison").pick_folder(),

@@ -173,8 +173,9 @@ fn drop_overlay(ctx: &Context) {
             Some(FileKind::Panorama) => {
                 "Use this image as reference, or as environment map if it is a panorama"
             }
+            Some(FileKind::Mesh) => "Add this mesh to the objects",
             Some(FileKind::Unknown) => "Unsupported file type",
-            None => "Drop a scene, a volume or an environment map",
+            None => "Drop a scene, a volume, a mesh or an environment map",
         })
         .collect();
     let painter = ctx.layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));

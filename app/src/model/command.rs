@@ -20,6 +20,8 @@ pub enum Purpose {
     PhaseTable,
     /// Image of the environment map, by index of the light.
     EnvironmentMap(usize),
+    /// File of a mesh, by index of the object.
+    Mesh(usize),
     /// Destination of the scene file.
     SaveScene,
     /// Destination of the linear image.

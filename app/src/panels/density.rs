@@ -33,7 +33,7 @@ impl Panel for Density {
     }
     fn summary(&self, cx: &Cx<'_>) -> String {
         match cx.draft.medium_at(cx.medium).density.grid() {
-            None if cx.draft.medium_at(cx.medium).within == Within::Everywhere => "uniform".into(),
+            None if cx.draft.medium_at(cx.medium).within != Within::Grid => "uniform".into(),
             None => "uniform cube".into(),
             Some(grid) => Path::new(&grid.file)
                 .file_name()
@@ -49,10 +49,17 @@ impl Panel for Density {
             .show(ui);
         source_ui(ui, cx);
         storage_ui(ui, cx);
-        // A medium without a box has no placement.
-        if cx.draft.medium_at(cx.medium).within == Within::Grid {
+        // A medium without a box of its own has no placement.
+        let medium = cx.draft.medium_at(cx.medium);
+        let has_box = match medium.within {
+            Within::Grid => true,
+            Within::Object(_) => !medium.is_uniform(),
+            Within::Everywhere => false,
+        };
+        if has_box {
             placement::placement_ui(
                 ui,
+                "Medium",
                 &mut cx.draft.medium_at_mut(cx.medium).placement,
                 &cx.opened.medium_at(cx.medium).placement,
             );

@@ -3,8 +3,8 @@
 use super::{Column, Cx, Panel};
 use crate::model::Command;
 use crate::theme::Palette;
-use crate::widgets::{buffered_text, hint, key, optional_key, row_of, segmented};
-use egui::{Align, Button, Layout, RichText, Ui};
+use crate::widgets::{buffered_text, hint, key, optional_key, row_of};
+use egui::{Align, Button, ComboBox, Layout, RichText, Ui};
 use majorant_core::scene::{DensityDoc, GridRef, MediumDoc, SceneDoc, Within};
 use majorant_core::spectrum::SpectrumDoc;
 
@@ -158,6 +158,7 @@ fn properties_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
     let opened = cx.opened.medium_at(cx.medium).extent;
     let index = cx.medium;
     let others: Vec<String> = names_without(cx.draft, index);
+    let regions = regions(cx.draft);
     let medium = cx.draft.medium_at_mut(index);
     row_of(ui, key("medium.name"), |ui, _| {
         let id = ui.make_persistent_id(("medium name", index));
@@ -169,22 +170,20 @@ fn properties_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
         }
     });
     row_of(ui, key("medium.within"), |ui, _| {
-        let options = [
-            (
-                Within::Grid,
-                "Grid",
-                "The box of the grid, or a unit cube for a uniform density, with its placement",
-            ),
-            (
-                Within::Everywhere,
-                "Everywhere",
-                "All of space, or a ball about the origin; for a uniform density",
-            ),
-        ];
-        segmented(ui, "Within", &mut medium.within, &options);
+        let shown = words(&medium.within);
+        let combo = ComboBox::from_id_salt("within").width(ui.available_width()).truncate();
+        let shown = combo.selected_text(shown).show_ui(ui, |ui| {
+            for (within, tip) in &regions {
+                let label = ui.selectable_label(medium.within == *within, words(within));
+                if label.on_hover_text(*tip).clicked() {
+                    medium.within = within.clone();
+                }
+            }
+        });
+        shown.response.accessible_name("Within");
     });
     match medium.within {
-        Within::Grid => medium.extent = None,
+        Within::Grid | Within::Object(_) => medium.extent = None,
         Within::Everywhere => {
             let extent = (&mut medium.extent, opened);
             optional_key(ui, key("medium.extent"), extent, 10.0, "to infinity", |value| value.logarithmic());
@@ -192,6 +191,28 @@ fn properties_ui(ui: &mut Ui, cx: &mut Cx<'_>) {
                 hint(ui, "Suns, environments and environment maps are fully extinguished.");
             }
         }
+    }
+}
+
+/// Regions that a medium can fill, each with its description.
+fn regions(doc: &SceneDoc) -> Vec<(Within, &'static str)> {
+    let mut regions = vec![
+        (Within::Grid, "The box of the grid, or a unit cube for a uniform density, with its placement"),
+        (Within::Everywhere, "All of space, or a ball about the origin; for a uniform density"),
+    ];
+    let closed = doc.objects.iter().filter(|object| object.shape.has_inside() && !object.name.is_empty());
+    regions.extend(closed.map(|object| {
+        (Within::Object(object.name.clone()), "The inside of this object; a grid also ends at its own box")
+    }));
+    regions
+}
+
+/// Name of a region in the menu.
+fn words(within: &Within) -> String {
+    match within {
+        Within::Grid => "Its own box".into(),
+        Within::Everywhere => "Everywhere".into(),
+        Within::Object(name) => format!("Object: {name}"),
     }
 }
 

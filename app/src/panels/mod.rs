@@ -18,6 +18,7 @@ mod light_fields;
 mod lights;
 mod majorant;
 mod media;
+mod object_fields;
 mod objects;
 mod phase;
 mod phase_table;

@@ -1,6 +1,7 @@
 //! Procedural grids for cases: small, rough, and identical on every machine.
 
 use super::truth::Lattice3;
+use glam::DVec3;
 
 /// A grid as the bytes of a `.npy` file, in which form a scene reads it, so that the reader is tested as
 /// well.
@@ -17,6 +18,61 @@ pub(super) fn npy([nx, ny, nz]: [usize; 3], channels: usize, values: &[f32]) -> 
     bytes.extend(padded.as_bytes());
     bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
     bytes
+}
+
+/// A box as an OBJ file, by quadrilaterals whose corners are counter-clockwise as seen from outside.
+pub(super) fn obj_box(lo: DVec3, hi: DVec3) -> String {
+    obj_boxes(&[(lo, hi)])
+}
+
+fn obj_boxes(boxes: &[(DVec3, DVec3)]) -> String {
+    let mut text = String::new();
+    for (index, (lo, hi)) in boxes.iter().enumerate() {
+        for corner in 0..8u8 {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { lo[axis] } else { hi[axis] };
+            text += &format!("v {} {} {}\n", pick(0), pick(1), pick(2));
+        }
+        let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        for face in faces {
+            let [a, b, c, d] = face.map(|corner| 8 * index + corner + 1);
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+/// Two boxes apart along x, −0.9 to −0.3 and 0.25 to 0.8, as one mesh.
+pub(super) fn two_boxes() -> String {
+    let half = DVec3::new(0.0, 0.6, 0.7);
+    let at = |from: f64, to: f64| (DVec3::X * from - half, DVec3::X * to + half);
+    obj_boxes(&[at(-0.9, -0.3), at(0.25, 0.8)])
+}
+
+/// Length of the axis within both boxes.
+pub(super) const TWO_BOXES_LENGTH: f64 = 0.6 + 0.55;
+
+/// Length of the axis within the boxes beyond x = −0.2.
+pub(super) const TWO_BOXES_BELOW: f64 = 0.55;
+
+/// A torus about the y axis as an OBJ file.
+pub(super) fn torus(radius: f64, tube: f64, [around, across]: [usize; 2]) -> String {
+    use std::f64::consts::TAU;
+    let mut text = String::new();
+    for i in 0..around {
+        let (sin, cos) = (TAU * i as f64 / around as f64).sin_cos();
+        for j in 0..across {
+            let (up, out) = (TAU * j as f64 / across as f64).sin_cos();
+            let r = radius + tube * out;
+            text += &format!("v {} {} {}\n", r * cos, tube * up, r * sin);
+        }
+    }
+    for i in 0..around {
+        for j in 0..across {
+            let at = |i: usize, j: usize| (i % around) * across + j % across + 1;
+            text += &format!("f {} {} {} {}\n", at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j));
+        }
+    }
+    text
 }
 
 /// Values between 0 and 1 without a pattern.

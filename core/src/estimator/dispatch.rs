@@ -1,8 +1,9 @@
 //! Dispatch from a registry entry to a monomorphic path.
 //!
 //! Mode and medium are matched once per path; the code below is one specialised function per
-//! estimator × mode × medium. A single homogeneous medium or density grid has a function of its own; RGB grids
-//! and several media share one, in which the kind of a medium is matched per segment and per look-up.
+//! estimator × mode × medium. A single homogeneous medium or density grid that no ray enters twice has a
+//! function of its own; all other scenes share one, in which the kind of a medium is matched per segment and
+//! per look-up.
 
 use super::{AxisSet, Estimator};
 use crate::math::{Sampler, SamplerKind};
@@ -116,6 +117,21 @@ pub(super) fn single<E: Estimator>(
     }
 }
 
+/// As [`family`], with one function for all media: for variants of an estimator that explain it, and whose time
+/// is not compared.
+pub(super) fn family_in_any_media<E: Estimator>(
+    scene: &Scene,
+    s: &Settings,
+    at: PathIndex,
+    context: PathContext<'_>,
+) -> PathEstimate {
+    let s = &s.limited_to::<E>();
+    match s.mode {
+        Mode::Spectral => path::<E, _, Wavelengths<4>, 4>(Every(scene), scene, s, at, context),
+        Mode::Rgb => path::<E, _, RgbChannels<3>, 3>(Every(scene), scene, s, at, context),
+    }
+}
+
 fn in_medium<E: Estimator, C: Components<N>, const N: usize>(
     scene: &Scene,
     s: &Settings,
@@ -150,10 +166,10 @@ fn in_grey_medium<E: Estimator>(
     }
 }
 
-/// The medium of a scene that has only one.
+/// The medium of a scene that has only one, if no ray enters it more than once.
 fn only_medium(scene: &Scene) -> Option<(&AnyMedium, &PlacedMedium)> {
     match &*scene.media {
-        [only] => Some((&only.placed.medium, &only.placed)),
+        [only] if only.placed.region.is_convex() => Some((&only.placed.medium, &only.placed)),
         _ => None,
     }
 }

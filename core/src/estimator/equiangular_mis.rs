@@ -92,7 +92,7 @@ impl Estimator for EquiangularMis {
                         let (other, value) = match &last {
                             None => (0.0, path.unidirectional(light.radiance, heuristics)),
                             Some(vertex) => {
-                                let nee = world.aim_density(vertex, light.index, ray.direction, surface.t());
+                                let nee = world.aim_density(vertex, light.index, &surface.light_point(&ray));
                                 let densities = reached.light_densities(world, light.index, ray.origin, nee);
                                 (nee, path.combined(light.radiance, densities, heuristics))
                             }

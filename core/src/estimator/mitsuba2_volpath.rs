@@ -131,7 +131,7 @@ impl Estimator for Mitsuba2Volpath {
             ray = Ray { origin: vertex.point(), direction: outgoing.direction };
             let end = world.nearest_surface(&ray, false);
             for light in world.arrivals(&ray, &end, false) {
-                let p_e = world.aim_density(&vertex, light.index, ray.direction, end.t());
+                let p_e = world.aim_density(&vertex, light.index, &end.light_point(&ray));
                 let p_p = outgoing.density;
                 let weight = outgoing.value * p_p / (p_p * p_p + p_e * p_e);
                 trace.notify(move || Note::LightWalk);

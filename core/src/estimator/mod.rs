@@ -18,7 +18,7 @@ pub use dispatch::{Kernel, PathEstimate, PathIndex, Settings};
 use crate::math::Ray;
 use crate::medium::LocalMedia;
 use crate::scene::{
-    self, Bookkeeping, Heuristic, Heuristics, MediumDoc, Problem, ReferenceDoc, SceneDoc, WhenExceeded,
+    self, Bookkeeping, Heuristic, Heuristics, Problem, ReferenceDoc, SceneDoc, ShapeDoc, WhenExceeded, Within,
 };
 use crate::spectrum::Components;
 use crate::transmittance::TransmittanceKind;
@@ -98,10 +98,17 @@ fn clamped_majorant(doc: &SceneDoc) -> Option<&'static str> {
     }
 }
 
-/// Whether there is a single medium, and extinction and albedo are the same everywhere in it.
+/// Whether there is a single medium, extinction and albedo are the same everywhere in it, and no ray enters it
+/// more than once, as it may enter a mesh.
 fn is_uniform(doc: &SceneDoc) -> bool {
     let mut media = doc.enabled_media();
-    media.next().is_some_and(MediumDoc::is_uniform) && media.next().is_none()
+    let (Some(medium), None) = (media.next(), media.next()) else { return false };
+    let object = match &medium.within {
+        Within::Object(name) => doc.object_named(name),
+        Within::Grid | Within::Everywhere => None,
+    };
+    let in_mesh = object.is_some_and(|(_, object)| matches!(object.shape, ShapeDoc::Mesh { .. }));
+    medium.is_uniform() && !in_mesh
 }
 
 /// Bias of estimators with selectable transmittance of connections. Along constant extinction marching is

@@ -72,7 +72,7 @@ fn bias_of(doc: &SceneDoc) -> Option<&'static str> {
 /// Selects the kernel for the form of the path weights.
 fn kernel(scene: &Scene, settings: &Settings, at: PathIndex, context: PathContext<'_>) -> PathEstimate {
     let kernel = match settings.path.bookkeeping {
-        _ if settings.path.fault != Fault::None => dispatch::family::<UniNeeMis<Faulty>>,
+        _ if settings.path.fault != Fault::None => dispatch::family_in_any_media::<UniNeeMis<Faulty>>,
         Bookkeeping::Rescaled => dispatch::family::<UniNeeMis<Rescaled>>,
         Bookkeeping::ApartF32 => dispatch::family::<UniNeeMis<ApartF32>>,
         Bookkeeping::ApartF64 => dispatch::family::<UniNeeMis<ApartF64>>,

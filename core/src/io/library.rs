@@ -2,13 +2,14 @@
 
 use super::placing::place;
 use super::volume::{self, GridChoice, GridRole, ReadLimits, Volume};
-use super::{Progress, embedded, fingerprint, phase_table, picture};
+use super::{Progress, embedded, fingerprint, mesh, phase_table, picture};
 use crate::light::Panorama;
 use crate::medium::Precision;
 use crate::scene::{GridRef, PlacedGrid, ResourceError, Resources, SceneDoc};
+use crate::surface::Mesh;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::Hash;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -30,6 +31,7 @@ pub struct Library {
     scalar: HashMap<(Key, Precision), PlacedGrid<1>>,
     rgb: HashMap<(Key, Precision), PlacedGrid<3>>,
     panoramas: HashMap<Key, (Arc<Panorama>, Vec<String>)>,
+    meshes: HashMap<Key, (Arc<Mesh>, Vec<String>)>,
     /// Files in memory, by the name used in scenes.
     in_memory: BTreeMap<String, Arc<[u8]>>,
     pictures_in_memory: BTreeMap<String, Arc<Panorama>>,
@@ -48,7 +50,7 @@ impl Library {
         self
     }
 
-    /// Adds a volume or table in memory, which takes precedence over a file named `name`.
+    /// Adds a volume, mesh or table in memory, which takes precedence over a file named `name`.
     #[must_use]
     pub fn with_volume(mut self, name: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
         self.in_memory.insert(name.to_owned(), bytes.into());
@@ -163,6 +165,9 @@ impl Library {
     }
 }
 
+/// Maximum number of cached meshes, of which a scene may have many.
+const KEPT_MESHES: usize = 64;
+
 /// Fraction of the loading time of a volume that is spent on reading; the rest is conversion to bricks.
 const READING: f64 = 0.8;
 
@@ -205,6 +210,26 @@ impl Resources for Library {
             picture::read_panorama(&key.path).map_err(|e| ResourceError(e.to_string()))?;
         let read = (Arc::new(panorama), notices);
         keep(&mut self.panoramas, key, read.clone());
+        Ok(read)
+    }
+
+    fn mesh(&mut self, file: &str) -> Result<(Arc<Mesh>, Vec<String>), ResourceError> {
+        let key = self.key(file, None);
+        if let Some(kept) = self.meshes.get(&key) {
+            return Ok(kept.clone());
+        }
+        self.progress.begin(file);
+        let read = match self.in_memory.get(file).map(|b| &**b).or_else(|| embedded::volume(file)) {
+            Some(bytes) => mesh::parse_mesh(bytes, Path::new(file)),
+            None => mesh::read_mesh(&key.path, self.limits.max_file_bytes),
+        };
+        self.progress.end();
+        let (mesh, repairs) = read.map_err(|e| ResourceError(e.to_string()))?;
+        let read = (Arc::new(mesh), repairs);
+        if self.meshes.len() >= KEPT_MESHES {
+            self.meshes.clear();
+        }
+        self.meshes.insert(key, read.clone());
         Ok(read)
     }
 

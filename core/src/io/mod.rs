@@ -5,6 +5,7 @@ pub mod export;
 mod exr_picture;
 pub mod fingerprint;
 mod library;
+pub mod mesh;
 pub mod phase_table;
 pub mod picture;
 mod placing;

@@ -150,7 +150,7 @@ fn set(tree: &mut toml::Value, path: &str, value: toml::Value) -> Result<(), Str
     if let Some(section @ ("medium" | "media")) = keys.peek().copied() {
         keys.next();
         let media =
-            child(at, "medium").and_then(toml::Value::as_array_mut).ok_or("the scene has no medium")?;
+            child(at, "media").and_then(toml::Value::as_array_mut).ok_or("the scene has no medium")?;
         let name = if section == "media" { keys.next().or(Some(last)) } else { None };
         let index = keys.peek().and_then(|key| key.parse::<usize>().ok()).filter(|_| section == "medium");
         at = match index {
@@ -235,7 +235,9 @@ fn locate_error(text: &str, error: &toml::de::Error) -> usize {
 fn offset_of(text: &str, path: &str) -> Option<usize> {
     let document = DeTable::parse(text).ok()?;
     let mut parts = path.split(['.', '[', ']']).filter(|part| !part.is_empty());
-    let mut found = document.get_ref().get(parts.next()?)?;
+    let first = parts.next()?;
+    let media = || document.get_ref().get("media").filter(|_| first == "medium");
+    let mut found = document.get_ref().get(first).or_else(media)?;
     for part in parts {
         // The keys of the only medium have no index.
         if let (DeValue::Array(elements), Err(_)) = (found.get_ref(), part.parse::<usize>())
@@ -284,5 +286,8 @@ size = [3, 4]
             assert!(found.is_some_and(|rest| rest.starts_with(value)), "{path}: {found:?}");
         }
         assert_eq!(offset_of(text, "film.width"), None);
+        let media = "[[media]]\nscale = 1\n[[media]]\nscale = 2\n";
+        let found = offset_of(media, "medium[1].scale").and_then(|offset| media.get(offset..));
+        assert_eq!(found, Some("2\n"));
     }
 }

@@ -35,7 +35,7 @@ pub struct LightChoice {
 /// A light, reduced to what its illuminance depends on.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// Emits on the side of its normal.
+    /// A rectangle or disk that emits on the side of its normal.
     Rectangle {
         center: Vec3,
         normal: Vec3,
@@ -45,6 +45,13 @@ enum Source {
     Sphere {
         center: Vec3,
         radius: f32,
+        luminance: f32,
+    },
+    /// A surface within a ball about the centre, which emits outwards.
+    Spread {
+        center: Vec3,
+        radius: f32,
+        area: f32,
         luminance: f32,
     },
     /// Luminance integrated over directions, the same at every point.
@@ -68,6 +75,18 @@ impl Source {
                 radius: l.shape.radius,
                 luminance: luminance(&l.radiance),
             },
+            LightKind::Disk(l) => Self::Rectangle {
+                center: l.shape.center,
+                normal: l.shape.normal,
+                area: l.shape.area(),
+                luminance: luminance(&l.radiance),
+            },
+            LightKind::Mesh(l) => Self::Spread {
+                center: l.center(),
+                radius: l.radius(),
+                area: l.area(),
+                luminance: luminance(&l.radiance),
+            },
             LightKind::Sun(l) => Self::Distant { illuminance: l.irradiance(luminance) },
             LightKind::Environment(l) => Self::Distant { illuminance: luminance(&l.radiance) * 2.0 * TAU },
             LightKind::EnvironmentMap(l) => Self::Distant { illuminance: l.illuminance() },
@@ -77,7 +96,9 @@ impl Source {
     /// Emitted luminous flux; for distant lights the flux into a ball of this radius.
     fn power(self, radius: f32) -> f32 {
         match self {
-            Self::Rectangle { area, luminance, .. } => PI * area * luminance,
+            Self::Rectangle { area, luminance, .. } | Self::Spread { area, luminance, .. } => {
+                PI * area * luminance
+            }
             Self::Sphere { radius, luminance, .. } => 4.0 * PI * PI * radius * radius * luminance,
             // Extinguished by media without a boundary.
             Self::Distant { illuminance: 0.0 } => 0.0,
@@ -98,6 +119,11 @@ impl Source {
             Self::Sphere { center, radius, luminance } => {
                 let sine_squared = radius * radius / at.distance_squared(center).max(f32::MIN_POSITIVE);
                 luminance * PI * sine_squared.min(4.0)
+            }
+            Self::Spread { center, radius, area, luminance } => {
+                // A quarter of the surface of a convex body is its mean projected area.
+                let squared = at.distance_squared(center).max(0.25 * radius * radius);
+                luminance * (0.25 * area / squared.max(f32::MIN_POSITIVE)).min(TAU)
             }
             Self::Distant { illuminance } => illuminance,
         }

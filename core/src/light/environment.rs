@@ -1,6 +1,6 @@
 //! Constant environment, sampled uniformly over the sphere.
 
-use super::{Emitter, LightSample};
+use super::{Emitter, LightPoint, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
 use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
@@ -14,10 +14,10 @@ pub struct Environment {
 
 impl Emitter for Environment {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
-        Some(LightSample { direction: uniform_direction(u), distance: f32::INFINITY, density: INV_4PI })
+        Some(LightSample::new(uniform_direction(u), f32::INFINITY, INV_4PI))
     }
 
-    fn density(&self, _from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+    fn density(&self, _from: Vec3, _at: &LightPoint) -> f32 {
         INV_4PI
     }
 

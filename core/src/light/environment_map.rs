@@ -5,7 +5,7 @@
 //! then a direction uniformly within it. One direction in twenty is drawn uniformly over the sphere
 //! instead, so that faint texels beside bright ones are also drawn.
 
-use super::{Emitter, LightSample};
+use super::{Emitter, LightPoint, LightSample};
 use crate::math::{INV_4PI, uniform_direction};
 use crate::spectrum::Components;
 use glam::{Vec2, Vec3};
@@ -110,12 +110,12 @@ impl Emitter for EnvironmentMap {
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
         let direction = self.turned(self.panorama.sample(u), self.rotate);
         // Density of the rounded direction, which at a texel's border may fall into the neighbouring texel.
-        let density = self.density(from, direction, f32::INFINITY);
-        Some(LightSample { direction, distance: f32::INFINITY, density })
+        let point = LightPoint { direction, distance: f32::INFINITY, triangle: 0 };
+        Some(LightSample { point, density: self.density(from, &point) })
     }
 
-    fn density(&self, _from: Vec3, direction: Vec3, _distance: f32) -> f32 {
-        self.panorama.density(self.turned(direction, -self.rotate))
+    fn density(&self, _from: Vec3, at: &LightPoint) -> f32 {
+        self.panorama.density(self.turned(at.direction, -self.rotate))
     }
 
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance {

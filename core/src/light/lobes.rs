@@ -38,10 +38,8 @@ impl LightLobes {
     #[must_use]
     pub fn towards(lights: &[Light]) -> Option<Self> {
         let target = |light: &Light| match &light.kind {
-            LightKind::Rectangle(light) => Some(Target::Point(light.shape.center)),
-            LightKind::Sphere(light) => Some(Target::Point(light.shape.center)),
             LightKind::Sun(sun) => Some(Target::Direction(sun.toward())),
-            LightKind::Environment(_) | LightKind::EnvironmentMap(_) => None,
+            _ => light.center().map(Target::Point),
         };
         let targets: Vec<Target> = lights.iter().filter_map(target).collect();
         (!targets.is_empty()).then_some(Self { targets })

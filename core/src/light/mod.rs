@@ -4,9 +4,12 @@
 //! the light. Every light has a positive extent, so that a randomly scattered path can reach it.
 
 mod choice;
+mod disk;
 mod environment;
 mod environment_map;
 mod lobes;
+mod mesh;
+mod mesh_tree;
 mod product;
 mod rectangle;
 mod sector;
@@ -14,9 +17,11 @@ mod sphere;
 mod sun;
 
 pub use choice::{LightChoice, LightSelection};
+pub use disk::DiskLight;
 pub use environment::Environment;
 pub use environment_map::{EnvironmentMap, Panorama};
 pub use lobes::LightLobes;
+pub use mesh::MeshLight;
 pub use product::LobeParts;
 pub use rectangle::RectangleLight;
 pub use sphere::SphereLight;
@@ -26,25 +31,42 @@ use crate::math::Ray;
 use crate::spectrum::Components;
 use glam::{Vec2, Vec3};
 
-/// A direction drawn towards a light.
+/// Point of a light, as seen from another point.
+#[derive(Clone, Copy, Debug)]
+pub struct LightPoint {
+    /// Unit vector towards the point.
+    pub direction: Vec3,
+    /// Distance to the point; infinite for distant lights.
+    pub distance: f32,
+    /// Triangle of a mesh; 0 on other lights.
+    pub triangle: u32,
+}
+
+/// A point drawn on a light.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
-    /// Unit vector towards the light.
-    pub direction: Vec3,
-    /// Distance to the light; infinite for distant lights.
-    pub distance: f32,
-    /// Density of the direction, per steradian.
+    /// The point.
+    pub point: LightPoint,
+    /// Density of its direction, per steradian.
     pub density: f32,
+}
+
+impl LightSample {
+    /// Creates a sample of a light that is not a mesh.
+    #[must_use]
+    pub fn new(direction: Vec3, distance: f32, density: f32) -> Self {
+        Self { point: LightPoint { direction, distance, triangle: 0 }, density }
+    }
 }
 
 /// Interface of a light.
 pub trait Emitter {
-    /// Draws a direction from which `from` receives light; `None` where it receives none.
+    /// Draws a point from which `from` receives light; `None` where it receives none.
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample>;
 
-    /// Density with which [`Self::sample`] draws `direction`, which reaches the light after
-    /// `distance`.
-    fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32;
+    /// Density with which [`Self::sample`] draws the direction of a point of the light, as that point; per
+    /// steradian.
+    fn density(&self, from: Vec3, at: &LightPoint) -> f32;
 
     /// Radiance arriving along `direction`, which must reach the light's emitting side.
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance;
@@ -55,8 +77,12 @@ pub trait Emitter {
 pub enum LightKind {
     /// A one-sided rectangle.
     Rectangle(RectangleLight),
+    /// A one-sided disk.
+    Disk(DiskLight),
     /// A sphere.
     Sphere(SphereLight),
+    /// A triangle mesh that emits outwards.
+    Mesh(MeshLight),
     /// A distant disc.
     Sun(Sun),
     /// A constant environment.
@@ -78,7 +104,9 @@ macro_rules! each {
     ($self:ident, $light:ident => $body:expr) => {
         match &$self.kind {
             LightKind::Rectangle($light) => $body,
+            LightKind::Disk($light) => $body,
             LightKind::Sphere($light) => $body,
+            LightKind::Mesh($light) => $body,
             LightKind::Sun($light) => $body,
             LightKind::Environment($light) => $body,
             LightKind::EnvironmentMap($light) => $body,
@@ -92,28 +120,32 @@ impl Light {
     pub fn center(&self) -> Option<Vec3> {
         match &self.kind {
             LightKind::Rectangle(light) => Some(light.shape.center),
+            LightKind::Disk(light) => Some(light.shape.center),
             LightKind::Sphere(light) => Some(light.shape.center),
+            LightKind::Mesh(light) => Some(light.center()),
             LightKind::Sun(_) | LightKind::Environment(_) | LightKind::EnvironmentMap(_) => None,
         }
     }
 
-    /// Distance from a point to the emitting side; `None` where the direction misses it.
+    /// Point of the emitting side in a direction; `None` where the direction misses it.
     #[must_use]
-    pub fn reach(&self, from: Vec3, direction: Vec3) -> Option<f32> {
+    pub fn reach(&self, from: Vec3, direction: Vec3) -> Option<LightPoint> {
         let ray = Ray { origin: from, direction };
-        match &self.kind {
-            LightKind::Rectangle(light) => {
-                let hit = light.shape.intersect(&ray, f32::INFINITY)?;
-                (direction.dot(hit.normal) < 0.0).then_some(hit.t)
-            }
-            LightKind::Sphere(light) => {
-                let hit = light.shape.intersect(&ray, f32::INFINITY)?;
-                (direction.dot(hit.normal) < 0.0).then_some(hit.t)
-            }
+        let hit = match &self.kind {
+            LightKind::Rectangle(light) => light.shape.intersect(&ray, f32::INFINITY)?,
+            LightKind::Disk(light) => light.shape.intersect(&ray, f32::INFINITY)?,
+            LightKind::Sphere(light) => light.shape.intersect(&ray, f32::INFINITY)?,
+            LightKind::Mesh(light) => light.shape().intersect(&ray, f32::INFINITY)?,
             LightKind::Sun(_) | LightKind::Environment(_) | LightKind::EnvironmentMap(_) => {
-                self.is_behind(direction).then_some(f32::INFINITY)
+                let point = LightPoint { direction, distance: f32::INFINITY, triangle: 0 };
+                return self.is_behind(direction).then_some(point);
             }
-        }
+        };
+        (direction.dot(hit.normal) < 0.0).then_some(LightPoint {
+            direction,
+            distance: hit.t,
+            triangle: hit.triangle,
+        })
     }
 
     /// Whether a ray that leaves the scene in `direction` reaches this light. False for lights with a
@@ -121,7 +153,7 @@ impl Light {
     #[must_use]
     pub fn is_behind(&self, direction: Vec3) -> bool {
         match &self.kind {
-            LightKind::Rectangle(_) | LightKind::Sphere(_) => false,
+            LightKind::Rectangle(_) | LightKind::Disk(_) | LightKind::Sphere(_) | LightKind::Mesh(_) => false,
             LightKind::Sun(sun) => sun.covers(direction),
             LightKind::Environment(_) | LightKind::EnvironmentMap(_) => true,
         }
@@ -133,8 +165,8 @@ impl Emitter for Light {
         each!(self, light => light.sample(from, u))
     }
 
-    fn density(&self, from: Vec3, direction: Vec3, distance: f32) -> f32 {
-        each!(self, light => light.density(from, direction, distance))
+    fn density(&self, from: Vec3, at: &LightPoint) -> f32 {
+        each!(self, light => light.density(from, at))
     }
 
     fn radiance<const N: usize, C: Components<N>>(&self, direction: Vec3, components: &C) -> C::Radiance {

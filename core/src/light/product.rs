@@ -14,7 +14,7 @@
 //! part of it is ever left out, and all of them where scattering is isotropic.
 
 use super::sector::Sector;
-use super::{Emitter, Light, LightSample};
+use super::{Emitter, Light, LightPoint, LightSample};
 use crate::math::{Frame, INV_4PI, PolarAngle};
 use glam::{Vec2, Vec3};
 
@@ -69,31 +69,22 @@ impl LobeParts {
     pub fn sample_light(&self, index: usize, light: &Light, from: Vec3, mut u: Vec2) -> Option<LightSample> {
         let Some(part) = self.part_of(index) else { return light.sample(from, u) };
         let share = self.share();
-        let sample = if u.x < share {
+        let point = if u.x < share {
             u.x /= share;
-            let direction = self.draw(part, u);
-            LightSample { direction, distance: light.reach(from, direction)?, density: 0.0 }
+            light.reach(from, self.draw(part, u))?
         } else {
             u.x = (u.x - share) / (1.0 - share);
-            light.sample(from, u)?
+            light.sample(from, u)?.point
         };
-        let density = self.light_density(index, light, from, sample.direction, sample.distance);
-        Some(LightSample { density, ..sample })
+        Some(LightSample { point, density: self.light_density(index, light, from, &point) })
     }
 
-    /// Density with which [`Self::sample_light`] draws `direction`, which reaches the light after `distance`.
+    /// Density with which [`Self::sample_light`] draws a point of the light.
     #[must_use]
-    pub fn light_density(
-        &self,
-        index: usize,
-        light: &Light,
-        from: Vec3,
-        direction: Vec3,
-        distance: f32,
-    ) -> f32 {
-        let by_light = light.density(from, direction, distance);
+    pub fn light_density(&self, index: usize, light: &Light, from: Vec3, at: &LightPoint) -> f32 {
+        let by_light = light.density(from, at);
         self.part_of(index).map_or(by_light, |part| {
-            let by_lobe = self.value(self.angle(direction)) / part.mass;
+            let by_lobe = self.value(self.angle(at.direction)) / part.mass;
             by_light + self.share() * (by_lobe - by_light)
         })
     }

@@ -1,6 +1,6 @@
 //! Rectangle light that emits on the side of its normal, sampled uniformly over its area.
 
-use super::{Emitter, LightSample};
+use super::{Emitter, LightPoint, LightSample};
 use crate::spectrum::{Components, Spectrum};
 use crate::surface::Rectangle;
 use glam::{Vec2, Vec3};
@@ -24,13 +24,14 @@ impl Emitter for RectangleLight {
         if distance == 0.0 || direction.dot(self.shape.normal) >= 0.0 {
             return None;
         }
-        Some(LightSample { direction, distance, density: self.density(from, direction, distance) })
+        let point = LightPoint { direction, distance, triangle: 0 };
+        Some(LightSample { point, density: self.density(from, &point) })
     }
 
     /// distance² / (area · cos θ at the light).
-    fn density(&self, _from: Vec3, direction: Vec3, distance: f32) -> f32 {
-        let cosine = -direction.dot(self.shape.normal);
-        if cosine <= 0.0 { 0.0 } else { distance * distance / (self.shape.area * cosine) }
+    fn density(&self, _from: Vec3, at: &LightPoint) -> f32 {
+        let cosine = -at.direction.dot(self.shape.normal);
+        if cosine <= 0.0 { 0.0 } else { at.distance * at.distance / (self.shape.area * cosine) }
     }
 
     fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {

@@ -2,7 +2,7 @@
 
 use super::{Light, LightKind};
 use crate::math::Frame;
-use crate::surface::Rectangle;
+use crate::surface::{Disk, Rectangle};
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
@@ -116,6 +116,12 @@ impl Light {
     /// Sector about a frame's axis that covers the whole light as seen from `from`. `None` for environments,
     /// and where no light is received.
     pub(super) fn sector(&self, from: Vec3, frame: &Frame) -> Option<Sector> {
+        let of_ball = |center: Vec3, radius: f32| {
+            let to_center = center - from;
+            let distance = to_center.length();
+            let sin = radius / distance;
+            (sin < 1.0).then(|| Sector::of_disc(frame.to_local(to_center / distance), sin, sin.asin()))
+        };
         match &self.kind {
             LightKind::Rectangle(light) => {
                 let Rectangle { center, half_u, half_v, normal, .. } = light.shape;
@@ -124,12 +130,12 @@ impl Light {
                 (middle.dot(normal) < 0.0)
                     .then(|| Sector::of_corners(&corners.map(|corner| frame.to_local(middle + corner))))
             }
-            LightKind::Sphere(light) => {
-                let to_center = light.shape.center - from;
-                let distance = to_center.length();
-                let sin = light.shape.radius / distance;
-                (sin < 1.0).then(|| Sector::of_disc(frame.to_local(to_center / distance), sin, sin.asin()))
+            LightKind::Disk(light) => {
+                let Disk { center, normal, radius } = light.shape;
+                if (center - from).dot(normal) < 0.0 { of_ball(center, radius) } else { None }
             }
+            LightKind::Sphere(light) => of_ball(light.shape.center, light.shape.radius),
+            LightKind::Mesh(light) => of_ball(light.center(), light.radius()),
             LightKind::Sun(sun) => {
                 let half = sun.half_angle();
                 (half < FRAC_PI_2).then(|| Sector::of_disc(frame.to_local(sun.toward()), half.sin(), half))

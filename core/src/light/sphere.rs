@@ -1,6 +1,6 @@
 //! Sphere light that emits outwards, sampled uniformly over the cone that it subtends.
 
-use super::{Emitter, LightSample};
+use super::{Emitter, LightPoint, LightSample};
 use crate::math::{Frame, PolarAngle};
 use crate::spectrum::{Components, Spectrum};
 use crate::surface::Sphere;
@@ -35,10 +35,10 @@ impl Emitter for SphereLight {
         let along = to_center.dot(direction);
         let off_axis2 = (to_center - direction * along).length_squared();
         let half_chord = (self.shape.radius * self.shape.radius - off_axis2).max(0.0).sqrt();
-        Some(LightSample { direction, distance: along - half_chord, density: 1.0 / (TAU * cap) })
+        Some(LightSample::new(direction, along - half_chord, 1.0 / (TAU * cap)))
     }
 
-    fn density(&self, from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+    fn density(&self, from: Vec3, _at: &LightPoint) -> f32 {
         self.one_minus_cos_max((self.shape.center - from).length_squared())
             .map_or(0.0, |cap| 1.0 / (TAU * cap))
     }

@@ -1,6 +1,6 @@
 //! Distant disc light: constant radiance from all directions within a small angle of a direction.
 
-use super::{Emitter, LightSample};
+use super::{Emitter, LightPoint, LightSample};
 use crate::math::{Frame, PolarAngle};
 use crate::spectrum::{Components, Spectrum};
 use glam::{Vec2, Vec3};
@@ -60,14 +60,10 @@ impl Emitter for Sun {
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
         let theta = PolarAngle::from_one_minus_cos(u.x * self.one_minus_cos_max);
         let direction = Frame::about(self.toward).polar(theta, u.y);
-        Some(LightSample {
-            direction,
-            distance: f32::INFINITY,
-            density: 1.0 / (TAU * self.one_minus_cos_max),
-        })
+        Some(LightSample::new(direction, f32::INFINITY, 1.0 / (TAU * self.one_minus_cos_max)))
     }
 
-    fn density(&self, _from: Vec3, _direction: Vec3, _distance: f32) -> f32 {
+    fn density(&self, _from: Vec3, _at: &LightPoint) -> f32 {
         1.0 / (TAU * self.one_minus_cos_max)
     }
 
@@ -87,11 +83,11 @@ mod tests {
             let sun = Sun::new(Vec3::Y, diameter, Spectrum::constant(2.0));
             let components = RgbChannels::<1> { channel: [0] };
             let s = sun.sample(Vec3::ZERO, Vec2::new(0.5, 0.5)).expect("the sun can always be sampled");
-            let radiance = sun.radiance(s.direction, &components).hero();
+            let radiance = sun.radiance(s.point.direction, &components).hero();
             let half = 0.5 * f64::from(diameter).to_radians();
             let irradiance = f64::from(radiance) * std::f64::consts::PI * half.sin().powi(2);
             assert!((irradiance - 2.0).abs() < 1e-3, "{irradiance}");
-            assert!(sun.covers(s.direction) && !sun.covers(Vec3::X));
+            assert!(sun.covers(s.point.direction) && !sun.covers(Vec3::X));
         }
     }
 }

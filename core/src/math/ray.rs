@@ -33,14 +33,15 @@ pub struct BoxRay {
     pub t_end: f32,
 }
 
+/// A component of a direction this small has no effect, and its inverse is finite, so that 0 · ∞ never occurs.
+const TINY: Vec3A = Vec3A::splat(1e-20);
+
 impl BoxRay {
     /// Clips a ray of another space, with 0 ≤ t ≤ t_max, to the cube (slab test). Returns the parameter of
     /// the entry and the segment; `None` if the ray misses the cube.
     #[must_use]
     #[inline]
     pub fn enter(ray: &Ray, box_from_ray: &Affine3A, t_max: f32) -> Option<(f32, Self)> {
-        // A component this small has no effect, and its inverse is finite, so that 0 · ∞ never occurs.
-        const TINY: Vec3A = Vec3A::splat(1e-20);
         let origin = box_from_ray.transform_point3a(ray.origin.into());
         let direction = box_from_ray.transform_vector3a(ray.direction.into());
         let direction = Vec3A::select(direction.abs().cmplt(TINY), TINY, direction);
@@ -56,6 +57,15 @@ impl BoxRay {
         } else {
             None
         }
+    }
+
+    /// Returns the segment in another space, given its origin there and the map of directions.
+    #[must_use]
+    #[inline]
+    pub fn moved(&self, origin: Vec3A, turned: impl Fn(Vec3A) -> Vec3A) -> Self {
+        let direction = turned(self.direction);
+        let direction = Vec3A::select(direction.abs().cmplt(TINY), TINY, direction);
+        Self { origin, direction, inverse: direction.recip(), t_end: self.t_end }
     }
 
     /// Returns the point at parameter `t`.

@@ -45,11 +45,11 @@ impl<'m, const N: usize> LocalMedia<N> for Several<'m, N> {
         let mut crossed: SmallVec<[Crossed<'_, 'm, N>; 2]> = SmallVec::new();
         let mut entry = f32::INFINITY;
         for (index, part) in self.parts.iter().enumerate() {
-            if let Some((t0, inside)) = part.placed.region.enter(ray, t_max) {
+            part.placed.region.stretches(ray, t_max, |t0, inside| {
                 entry = entry.min(t0);
                 let segments = part.medium.segments(&inside);
                 crossed.push(Crossed { part, index: index as u32, t0, inside, segments, segment: None });
-            }
+            });
         }
         if crossed.is_empty() {
             return None;
@@ -74,7 +74,7 @@ pub struct SeveralTraversal<'a, 'm, const N: usize> {
     shared: bool,
 }
 
-/// A medium that the ray crosses.
+/// A stretch of the ray through a medium; a medium that is not convex may have several.
 #[derive(Clone)]
 struct Crossed<'a, 'm, const N: usize> {
     part: &'a Part<'m, N>,

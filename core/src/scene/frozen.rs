@@ -1,11 +1,12 @@
 //! Frozen scene: the immutable form in which paths are traced.
 
 use super::Camera;
-use crate::light::{Light, LightChoice, LightLobes};
+use crate::light::{Light, LightChoice, LightLobes, LightPoint};
+use crate::material::Material;
 use crate::math::Ray;
 use crate::medium::{AnyMedium, Emission, PlacedMedium};
 use crate::phase::Phase;
-use crate::surface::{Role, Surface, SurfaceHit};
+use crate::surface::{Surface, SurfaceHit, SurfacePoint};
 use glam::{Affine3A, Vec3};
 
 /// Frozen scene, immutable and shared by all views that render it.
@@ -21,7 +22,7 @@ pub struct Scene {
     pub media: Vec<SceneMedium>,
     /// Whether a medium without a boundary extinguishes all light from infinity.
     pub is_unbounded: bool,
-    /// Diffuse surfaces, and the surfaces of lights that have a shape.
+    /// Surfaces of lights that have a shape, and of objects.
     pub surfaces: Vec<Surface>,
     /// All lights.
     pub lights: Vec<Light>,
@@ -68,6 +69,8 @@ impl SceneMedium {
 pub struct SceneInfo {
     /// Statistics of every medium of the document; `None` for media that are not part of the scene.
     pub media: Vec<Option<MediumInfo>>,
+    /// Statistics of every object of the document.
+    pub objects: Vec<ObjectInfo>,
     /// Minimum corner of the bounds of all media in world space.
     pub world_min: [f32; 3],
     /// Maximum corner of the bounds of all media in world space.
@@ -80,6 +83,17 @@ impl SceneInfo {
     pub fn medium(&self, index: usize) -> Option<&MediumInfo> {
         self.media.get(index)?.as_ref()
     }
+}
+
+/// Statistics of an object for display; zero for shapes other than meshes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ObjectInfo {
+    /// Number of triangles with an area.
+    pub triangles: usize,
+    /// Number of vertices.
+    pub vertices: usize,
+    /// Memory in bytes, with the hierarchy.
+    pub memory_bytes: usize,
 }
 
 /// Statistics of a medium for display.
@@ -129,10 +143,35 @@ impl<'a> NearestSurface<'a> {
         self.0.map_or(Vec3::ZERO, |(hit, _)| hit.normal)
     }
 
-    /// Role of the surface in light transport; `None` without a hit.
+    /// The end of the ray as a point of a light.
     #[must_use]
-    pub fn role(&self) -> Option<&'a Role> {
-        self.0.map(|(_, surface)| &surface.role)
+    pub fn light_point(&self, ray: &Ray) -> LightPoint {
+        let triangle = self.0.map_or(0, |(hit, _)| hit.triangle);
+        LightPoint { direction: ray.direction, distance: self.t(), triangle }
+    }
+
+    /// Returns whether the ray meets no surface.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.0.is_none()
+    }
+
+    /// Index of the light that the surface emits as, if any.
+    #[must_use]
+    pub fn light(&self) -> Option<usize> {
+        self.0?.1.light
+    }
+
+    /// Material of the surface; `None` without a hit, and where all light is absorbed.
+    #[must_use]
+    pub fn material(&self) -> Option<&'a Material> {
+        self.0?.1.material.as_ref()
+    }
+
+    /// The point that the ray meets; `None` without a hit.
+    #[must_use]
+    pub fn point(&self, ray: &Ray) -> Option<SurfacePoint> {
+        self.0.map(|(hit, surface)| surface.shape.point(ray, &hit))
     }
 }
 
@@ -150,10 +189,12 @@ impl Scene {
         self.media.iter().find(|medium| medium.index == index)
     }
 
-    /// Returns whether there is a single medium, and extinction and albedo are the same everywhere in it.
+    /// Returns whether there is a single medium, extinction and albedo are the same everywhere in it, and no
+    /// ray enters it more than once.
     #[must_use]
     pub fn is_uniform(&self) -> bool {
-        matches!(&*self.media, [only] if matches!(only.placed.medium, AnyMedium::Homogeneous(_)))
+        matches!(&*self.media, [only] if matches!(only.placed.medium, AnyMedium::Homogeneous(_))
+            && only.placed.region.is_convex())
     }
 
     /// Returns whether the extinction of a medium may exceed its majorant.
@@ -193,7 +234,7 @@ impl Scene {
     /// Returns whether any surface intersects the ray at `0 < t < t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
-        self.surfaces.iter().any(|surface| surface.shape.intersect(ray, t_max).is_some())
+        self.surfaces.iter().any(|surface| surface.shape.occludes(ray, t_max))
     }
 
     /// Returns the nearest surface along a ray at `0 < t < t_max`. Camera rays pass through lights that are
@@ -203,7 +244,7 @@ impl Scene {
         let mut nearest: Option<(SurfaceHit, &Surface)> = None;
         for surface in &self.surfaces {
             if from_camera
-                && let Role::Light(index) = surface.role
+                && let Some(index) = surface.light
                 && self.lights.get(index).is_some_and(|light| !light.visible)
             {
                 continue;

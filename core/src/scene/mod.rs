@@ -11,7 +11,7 @@ mod validate;
 pub use build::{PlacedGrid, ResourceError, Resources, build};
 pub use camera::Camera;
 pub use doc::*;
-pub use frozen::{MediumInfo, NearestSurface, Scene, SceneInfo, SceneMedium};
+pub use frozen::{MediumInfo, NearestSurface, ObjectInfo, Scene, SceneInfo, SceneMedium};
 pub(crate) use placement::{bounds, rotation};
 pub use validate::{Problem, validate};
 

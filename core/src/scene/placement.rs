@@ -24,14 +24,28 @@ pub(crate) fn bounds(world_from_unit: &DAffine3) -> (DVec3, DVec3) {
 /// World-from-unit-cube transform: fit, then scale, rotation and translation, or the matrix. In double
 /// precision: a grid far from the origin of its file, in units of its voxels, would lose its shape otherwise.
 pub(super) fn world_from_unit(doc: &PlacementDoc, object_from_unit: DAffine3) -> DAffine3 {
-    let mut placed = object_from_unit;
-    if let Some(longest) = doc.fit {
-        let (lo, hi) = bounds(&placed);
-        let scale = f64::from(longest) / (hi - lo).max_element();
-        placed =
-            DAffine3::from_scale(DVec3::splat(scale)) * DAffine3::from_translation(-0.5 * (lo + hi)) * placed;
-    }
-    let world_from_object = match doc.matrix {
+    let fitted = match fitting(doc, bounds(&object_from_unit)) {
+        Some(fitting) => fitting * object_from_unit,
+        None => object_from_unit,
+    };
+    world_from_fitted(doc) * fitted
+}
+
+/// World-from-object transform of an object with these bounds: fit, then the rest of the placement.
+pub(super) fn world_from_object(doc: &PlacementDoc, bounds: (DVec3, DVec3)) -> DAffine3 {
+    let world = world_from_fitted(doc);
+    fitting(doc, bounds).map_or(world, |fitting| world * fitting)
+}
+
+/// Centres bounds on the origin and scales their longest side to the length of the document, if it gives one.
+fn fitting(doc: &PlacementDoc, (lo, hi): (DVec3, DVec3)) -> Option<DAffine3> {
+    let scale = f64::from(doc.fit?) / (hi - lo).max_element();
+    Some(DAffine3::from_scale(DVec3::splat(scale)) * DAffine3::from_translation(-0.5 * (lo + hi)))
+}
+
+/// Scale, rotation and translation, or the matrix.
+fn world_from_fitted(doc: &PlacementDoc) -> DAffine3 {
+    match doc.matrix {
         Some(rows) => {
             let [x, y, z] = rows.map(|row| row.map(f64::from));
             DAffine3::from_mat3_translation(
@@ -47,8 +61,7 @@ pub(super) fn world_from_unit(doc: &PlacementDoc, object_from_unit: DAffine3) ->
                 DVec3::from(doc.translate.map(f64::from)),
             )
         }
-    };
-    world_from_object * placed
+    }
 }
 
 /// The transform in single precision.

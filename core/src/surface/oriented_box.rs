@@ -2,7 +2,7 @@
 
 use super::SurfaceHit;
 use crate::math::Ray;
-use glam::{Quat, Vec3};
+use glam::{Mat3, Quat, Vec3};
 
 /// A box given by centre, half edge lengths and rotation.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,32 @@ impl OrientedBox {
                 break;
             }
         }
-        Some(SurfaceHit { t, normal: self.world_from_box * normal })
+        Some(SurfaceHit::new(t, self.world_from_box * normal))
+    }
+
+    /// Parameters at which the ray's line enters and leaves the box; `None` if it misses.
+    #[must_use]
+    pub fn interval(&self, ray: &Ray) -> Option<[f32; 2]> {
+        // A component this small has no effect, and its inverse is finite, so that 0 · ∞ never occurs.
+        const TINY: Vec3 = Vec3::splat(1e-20);
+        let box_from_world = self.world_from_box.inverse();
+        let origin = box_from_world * (ray.origin - self.center);
+        let direction = box_from_world * ray.direction;
+        let inverse = Vec3::select(direction.abs().cmplt(TINY), TINY, direction).recip();
+        let a = (-self.half_size - origin) * inverse;
+        let b = (self.half_size - origin) * inverse;
+        let (t0, t1) = (a.min(b).max_element(), a.max(b).min_element());
+        (t0 < t1).then_some([t0, t1])
+    }
+
+    /// Axis-aligned bounds in world space.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let m = Mat3::from_quat(self.world_from_box);
+        let half = m.x_axis.abs() * self.half_size.x
+            + m.y_axis.abs() * self.half_size.y
+            + m.z_axis.abs() * self.half_size.z;
+        (self.center - half, self.center + half)
     }
 }
 

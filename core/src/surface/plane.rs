@@ -18,6 +18,6 @@ impl Plane {
     #[must_use]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let t = (self.point - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
-        (t > 0.0 && t < t_max).then_some(SurfaceHit { t, normal: self.normal })
+        (t > 0.0 && t < t_max).then_some(SurfaceHit::new(t, self.normal))
     }
 }

@@ -52,6 +52,6 @@ impl Rectangle {
         let p = ray.at(t) - self.center;
         let inside = p.dot(self.half_u).abs() <= self.half_u.length_squared()
             && p.dot(self.half_v).abs() <= self.half_v.length_squared();
-        inside.then_some(SurfaceHit { t, normal: self.normal })
+        inside.then_some(SurfaceHit::new(t, self.normal))
     }
 }

@@ -29,6 +29,21 @@ impl Sphere {
         let half_chord = half_chord2.sqrt();
         let inside = to_center.length_squared() < self.radius * self.radius;
         let t = if inside { along + half_chord } else { along - half_chord };
-        (t > 0.0 && t < t_max).then(|| SurfaceHit { t, normal: (ray.at(t) - self.center).normalize() })
+        (t > 0.0 && t < t_max).then(|| SurfaceHit::new(t, (ray.at(t) - self.center).normalize()))
+    }
+
+    /// Parameters at which the ray's line enters and leaves the sphere; `None` if it misses.
+    ///
+    /// The half chord follows from the point of the line nearest to the centre, which loses fewer digits for a
+    /// distant ray origin than the discriminant b² − c does.
+    #[must_use]
+    pub fn interval(&self, ray: &Ray) -> Option<[f32; 2]> {
+        let middle = (self.center - ray.origin).dot(ray.direction);
+        let nearest = (ray.at(middle) - self.center).length();
+        let half_squared = (self.radius - nearest) * (self.radius + nearest);
+        (half_squared > 0.0).then(|| {
+            let half = half_squared.sqrt();
+            [middle - half, middle + half]
+        })
     }
 }

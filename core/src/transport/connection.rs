@@ -7,13 +7,13 @@ use super::{
     Collision, DirectionSample, EventRule, Note, Part, Place, Technique, Trace, Vertex, WalkWeights, Weights,
     World,
 };
-use crate::light::{Emitter, LobeParts};
+use crate::light::{Emitter, LightPoint, LobeParts};
 use crate::math::{Ray, SideStream};
 use crate::medium::{LocalMedia, Traversal};
 use crate::scene::{LightSampling, NearestSurface};
 use crate::spectrum::{Components, Sampled};
 use crate::transmittance::InMedium;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 /// A connection that has reached its light.
 #[derive(Clone, Copy, Debug)]
@@ -164,20 +164,20 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
             Some(parts) => parts.sample_light(index, light, vertex.point(), u)?,
             None => light.sample(vertex.point(), u)?,
         };
-        let outgoing = self.directions(vertex).towards(vertex, sample.direction);
-        let ray = Ray { origin: vertex.point(), direction: sample.direction };
+        let at = sample.point;
+        let outgoing = self.directions(vertex).towards(vertex, at.direction);
+        let ray = Ray { origin: vertex.point(), direction: at.direction };
         // The occlusion test ends just short of the light; the medium extends all the way.
-        let extinguished = self.scene.is_unbounded && sample.distance == f32::INFINITY;
-        if outgoing.value <= 0.0 || extinguished || self.scene.occluded(&ray, sample.distance * (1.0 - 1e-4))
-        {
+        let extinguished = self.scene.is_unbounded && at.distance == f32::INFINITY;
+        if outgoing.value <= 0.0 || extinguished || self.scene.occluded(&ray, at.distance * (1.0 - 1e-4)) {
             return None;
         }
         Some(Aim {
             outgoing,
             ray,
-            distance: sample.distance,
+            distance: at.distance,
             density: sample.density,
-            radiance: light.radiance(sample.direction, &self.components),
+            radiance: light.radiance(at.direction, &self.components),
             light: index,
         })
     }
@@ -199,7 +199,7 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
             let (other, value) = match last {
                 None => (0.0, path.unidirectional(light.radiance, heuristics)),
                 Some(vertex) => {
-                    let nee = self.aim_density(vertex, light.index, ray.direction, end.t());
+                    let nee = self.aim_density(vertex, light.index, &end.light_point(ray));
                     (nee, path.combined(light.radiance, nee, heuristics))
                 }
             };
@@ -207,14 +207,14 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         }
     }
 
-    /// Density with which [`Self::aim`] draws the direction from a vertex to a light at `distance`; per
-    /// steradian, including the choice of the light.
+    /// Density with which [`Self::aim`] draws a point of a light from a vertex; per steradian, including the
+    /// choice of the light.
     #[must_use]
-    pub fn aim_density(&self, vertex: &Vertex, index: usize, direction: Vec3, distance: f32) -> f32 {
+    pub fn aim_density(&self, vertex: &Vertex, index: usize, at: &LightPoint) -> f32 {
         let (from, scene) = (vertex.point(), self.scene);
         let density = scene.lights.get(index).map_or(0.0, |light| match self.product(vertex) {
-            Some(parts) => parts.light_density(index, light, from, direction, distance),
-            None => light.density(from, direction, distance),
+            Some(parts) => parts.light_density(index, light, from, at),
+            None => light.density(from, at),
         });
         density * scene.light_choice.probability(index, from, self.settings.lights)
     }

@@ -48,9 +48,10 @@ impl DirectionSampler<'_> {
             Vertex::Medium { omega_in, .. } => {
                 self.mixed(vertex, direction, self.phase.density(*omega_in, direction))
             }
-            Vertex::Surface { normal, .. } => {
-                let value = normal.dot(direction).max(0.0) * FRAC_1_PI;
-                DirectionSample { direction, value, density: value }
+            Vertex::Surface { normal, outward, .. } => {
+                let density = normal.dot(direction).max(0.0) * FRAC_1_PI;
+                let value = if outward.dot(direction) > 0.0 { density } else { 0.0 };
+                DirectionSample { direction, value, density }
             }
         }
     }
@@ -74,10 +75,13 @@ impl DirectionSampler<'_> {
                 let (direction, value) = self.phase.sample(*omega_in, u);
                 self.mixed(vertex, direction, value)
             }
-            Vertex::Surface { normal, .. } => {
+            Vertex::Surface { normal, outward, .. } => {
                 let local = cosine_direction(u);
-                let value = (local.z * FRAC_1_PI).max(f32::MIN_POSITIVE);
-                DirectionSample { direction: Frame::about(*normal).to_world(local), value, density: value }
+                let density = (local.z * FRAC_1_PI).max(f32::MIN_POSITIVE);
+                let direction = Frame::about(*normal).to_world(local);
+                // On the geometric normal alone, rounding may put a grazing direction below the surface.
+                let passes = normal == outward || outward.dot(direction) > 0.0;
+                DirectionSample { direction, value: if passes { density } else { 0.0 }, density }
             }
         }
     }

@@ -40,8 +40,10 @@ pub enum Vertex {
     Surface {
         /// Position just above the surface, on the side from which the path arrived.
         point: Vec3,
-        /// Unit normal on that side.
+        /// Unit normal on that side, interpolated on smooth meshes.
         normal: Vec3,
+        /// Unit normal of the geometry on that side, below which no light passes.
+        outward: Vec3,
     },
 }
 

@@ -5,6 +5,7 @@ use super::{
     Technique, Vertex, Walk, WalkWeights,
 };
 use crate::light::{Emitter, LobeParts};
+use crate::material::Material;
 use crate::math::{Ray, Sampler, SideStream};
 use crate::medium::LocalMedia;
 use crate::scene::{
@@ -12,7 +13,6 @@ use crate::scene::{
     LightSelection, LightWalk, NearestSurface, Scene, Tracking,
 };
 use crate::spectrum::{Components, Radiance, Sampled};
-use crate::surface::Role;
 use crate::transmittance::TransmittanceKind;
 
 /// Settings shared by all paths of a render.
@@ -198,21 +198,21 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         end: &NearestSurface,
         from_camera: bool,
     ) -> impl Iterator<Item = Arrival<C::Radiance>> {
-        let (ray, role, normal) = (*ray, end.role(), end.normal());
+        let (ray, met, normal, leaves) = (*ray, end.light(), end.normal(), end.is_none());
         self.scene.lights.iter().enumerate().filter_map(move |(index, light)| {
-            let met = match role {
-                // Lights with a surface emit on the side of its normal only.
-                Some(Role::Light(met)) => *met == index && ray.direction.dot(normal) < 0.0,
-                Some(Role::Diffuse(_)) => false,
-                None => light.is_behind(ray.direction),
+            // Lights with a surface emit on the side of its normal only.
+            let met = if leaves {
+                light.is_behind(ray.direction)
+            } else {
+                met == Some(index) && ray.direction.dot(normal) < 0.0
             };
             (met && (light.visible || !from_camera))
                 .then(|| Arrival { radiance: light.radiance(ray.direction, &self.components), index })
         })
     }
 
-    /// The diffuse vertex at which a ray ends, with its albedo; `None` at a light or if the ray leaves the
-    /// scene.
+    /// The diffuse vertex at which a ray ends, with its albedo; `None` at a surface that reflects nothing, and
+    /// if the ray leaves the scene.
     #[must_use]
     pub fn diffuse_vertex(
         &self,
@@ -220,15 +220,15 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         end: &NearestSurface,
         trace: &mut Trace<'_>,
     ) -> Option<(Vertex, Sampled<N>)> {
-        let Some(Role::Diffuse(albedo)) = end.role() else { return None };
-        let point = ray.at(end.t());
-        let normal = end.normal() * -ray.direction.dot(end.normal()).signum();
-        // Lifts the vertex off the surface by several times the rounding error of its coordinates, which has
-        // the magnitude of the ray's origin and of the point.
-        let lift = 1e-6 * (point.abs().max_element() + ray.origin.abs().max_element());
-        let albedo = self.components.evaluate(albedo);
+        let Material::Diffuse(diffuse) = end.material()?;
+        let at = end.point(ray)?;
+        let side = -ray.direction.dot(end.normal()).signum();
+        let (outward, normal) = (end.normal() * side, at.shading_normal * side);
+        let albedo = self.components.evaluate(&diffuse.albedo);
+        let point = at.position;
         trace.notify(move || Note::Surface { point, albedo: albedo.lanes() });
-        Some((Vertex::Surface { point: point + normal * lift, normal }, albedo))
+        // The vertex is lifted off the surface by the error of its position.
+        Some((Vertex::Surface { point: point + outward * at.error, normal, outward }, albedo))
     }
 
     /// A scattering vertex in a medium, on this ray.

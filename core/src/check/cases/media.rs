@@ -38,17 +38,17 @@ const BALL: [f64; 3] = [0.05, 0.1, 0.02];
 fn absorbers() -> Result<Vec<Case>, CheckError> {
     let toml = format!(
         "{AXIS}
-        [[medium]]
+        [[media]]
         name = \"first\"
         extinction = {{ rgb = {FIRST:?} }}
         albedo = 0.0
-        [[medium]]
+        [[media]]
         name = \"second\"
         extinction = {{ rgb = {SECOND:?} }}
         albedo = 0.0
         placement = {{ translate = [0.0, 0.0, 0.4] }}
         majorant = {{ factor = 1.7 }}
-        [[medium]]
+        [[media]]
         name = \"ball\"
         extinction = {{ rgb = {BALL:?} }}
         albedo = 0.0
@@ -90,7 +90,7 @@ fn unbounded() -> Result<Case, CheckError> {
     let sigma = Points(&[(430.0, 0.01), (560.0, 0.03), (650.0, 0.02)]);
     let toml = format!(
         "{AXIS}
-        [[medium]]
+        [[media]]
         name = \"fog\"
         within = \"everywhere\"
         extinction = {}
@@ -119,20 +119,20 @@ fn furnace() -> Result<Vec<Case>, CheckError> {
     let rough = truth::Lattice3::npy(&fixture::rough_lattice([5, 6, 4], 4));
     let toml = format!(
         "{ASIDE}
-        [[medium]]
+        [[media]]
         name = \"grid\"
         extinction = {{ rgb = [3.0, 6.0, 1.0] }}
         albedo = 1.0
         density = {{ kind = \"grid\", file = \"rough.npy\" }}
         placement = {{ fit = 1.2 }}
         phase = {{ kind = \"henyey-greenstein\", g = 0.6 }}
-        [[medium]]
+        [[media]]
         name = \"box\"
         extinction = {{ rgb = [1.0, 0.5, 4.0] }}
         albedo = 1.0
         placement = {{ scale = [0.8, 1.2, 0.6], rotate_deg = [20.0, 30.0, 0.0], translate = [0.2, 0.1, 0.0] }}
         phase = {{ kind = \"henyey-greenstein\", g = -0.5 }}
-        [[medium]]
+        [[media]]
         name = \"ball\"
         extinction = 0.2
         albedo = 1.0
@@ -175,12 +175,12 @@ fn thermal() -> Result<Case, CheckError> {
     let (first, second) = (Points(&[(400.0, 0.3), (700.0, 1.0)]), Points(&[(450.0, 0.9), (600.0, 0.2)]));
     let toml = format!(
         "{AXIS}
-        [[medium]]
+        [[media]]
         name = \"cool\"
         albedo = 0.0
         extinction = {}
         emission = {{ kelvin = 2500.0, scale = 2.0 }}
-        [[medium]]
+        [[media]]
         name = \"hot\"
         albedo = 0.0
         extinction = {}
@@ -212,12 +212,12 @@ fn single() -> Result<Vec<Case>, CheckError> {
     let (first, second) = ([0.5, 1.0, 3.0], [0.5, 2.0, 0.5]);
     let toml = format!(
         "{AXIS}
-        [[medium]]
+        [[media]]
         name = \"first\"
         extinction = {{ rgb = {first:?} }}
         albedo = 0.9
         phase = {{ kind = \"henyey-greenstein\", g = -0.6 }}
-        [[medium]]
+        [[media]]
         name = \"second\"
         extinction = {{ rgb = {second:?} }}
         albedo = 0.4
@@ -261,7 +261,7 @@ fn single() -> Result<Vec<Case>, CheckError> {
     let answer = Answer::uniform(sigma.map(|sigma| in_lattice(&rough, sigma, &disc)), Layout::WHOLE);
     let half = |name: &str, scale: f64, factor: f64| {
         format!(
-            "[[medium]]
+            "[[media]]
             name = \"{name}\"
             extinction = {{ rgb = {sigma:?} }}
             scale = {scale}

@@ -10,6 +10,7 @@ mod interpolation;
 mod lights;
 mod media;
 mod oracle;
+mod shapes;
 mod single_scattering;
 mod thermal;
 
@@ -28,6 +29,7 @@ pub static FAMILIES: &[Family] = &[
     thermal::FAMILY,
     lights::FAMILY,
     media::FAMILY,
+    shapes::FAMILY,
     half_space::FAMILY,
     agreement::FAMILY,
     oracle::FAMILY,

@@ -1,9 +1,9 @@
-//! Images of nine scenes from independent renderers.
+//! Images of twelve scenes from independent renderers.
 //!
 //! The scenes, references and their provenance are in `assets/oracle`: block means of converged images in
 //! linear sRGB with standard errors, and for S6 also by quadrature. S4 and S5 are one plume in RGB and in
 //! spectral mode. S7 has two overlapping media, which are one grid in the other renderer, and S8 a ball of
-//! fog around a light. S1, S2, S3 and S6 have the same coefficients at every wavelength, so that their images apply to
+//! fog around a light; S9 to S11 have meshes that reflect, bound a medium and emit. S1, S2, S3 and S6 have the same coefficients at every wavelength, so that their images apply to
 //! spectral mode as well, in the colour of illuminant E instead of white. The reference of S5 was rendered
 //! with observer tables that are 0.1 % off. Where an estimator rarely hits a light, blocks are larger, since
 //! every batch must yield a reliable noise estimate.
@@ -59,16 +59,23 @@ static ORACLES: &[Oracle] = &[
     oracle!("S6", "analytic.npy", 8, None),
     oracle!("S7", "reference.npy", 8, None),
     oracle!("S8", "reference.npy", 8, Some(3_000_000)),
+    oracle!("S9", "reference.npy", 8, Some(3_000_000)),
+    oracle!("S10", "reference.npy", 4, Some(3_000_000)),
+    oracle!("S11", "reference.npy", 4, Some(3_000_000)),
 ];
 
 fn files() -> Library {
     let cloud: &'static [u8] = include_bytes!("../../../../assets/oracle/S2/density.npy");
     let plume: &'static [u8] = include_bytes!("../../../../assets/oracle/S4/density.npy");
     let slab: &'static [u8] = include_bytes!("../../../../assets/oracle/S6/density.npy");
+    let torus: &'static [u8] = include_bytes!("../../../../assets/oracle/S9/torus.obj");
+    let lantern: &'static [u8] = include_bytes!("../../../../assets/oracle/S10/lantern.obj");
     Library::default()
         .with_volume("../S2/density.npy", cloud)
         .with_volume("../S4/density.npy", plume)
         .with_volume("../S6/density.npy", slab)
+        .with_volume("../S9/torus.obj", torus)
+        .with_volume("../S10/lantern.obj", lantern)
 }
 
 /// Blocks along a side of a stored image; it has three channels.
@@ -118,10 +125,8 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         (doc.film.width, doc.film.height) = (32, 32);
         // Independent samples, as the power of the comparison assumes; lattices have a case of their own.
         doc.estimator.sampler = crate::math::SamplerKind::Independent;
-        if let crate::scene::DensityDoc::Grid(grid) = &mut doc.medium_mut().density
-            && !grid.file.starts_with("../")
-        {
-            grid.file = format!("../{}/{}", o.name, grid.file);
+        for file in doc.files_mut().into_iter().filter(|file| !file.starts_with("../")) {
+            *file = format!("../{}/{file}", o.name);
         }
         let mut values = merged(&table(o.name, o.reference)?, &table(o.name, o.stderr)?, o.side);
         if o.name == "S4" {
@@ -145,7 +150,7 @@ fn cases() -> Result<Vec<Case>, CheckError> {
         };
         // Grey scenes have the same answer in every channel and at every wavelength. S2 is by far the
         // slowest.
-        if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5" | "S7" | "S8") {
+        if !by_quadrature && !matches!(o.name, "S2" | "S4" | "S5" | "S7" | "S8" | "S9" | "S10" | "S11") {
             let coloured = values
                 .iter()
                 .enumerate()

@@ -36,11 +36,11 @@ fn keys(doc: &SceneDoc) -> Option<BTreeMap<String, toml::Value>> {
 
 fn flatten(path: String, value: toml::Value, found: &mut BTreeMap<String, toml::Value>) {
     match value {
-        toml::Value::Array(media) if path == "medium" => {
+        toml::Value::Array(media) if path == "media" => {
             let is_only = media.len() == 1;
             for medium in media {
                 let name = medium.get("name").and_then(toml::Value::as_str).unwrap_or_default();
-                let path = if is_only { path.clone() } else { format!("media.{name}") };
+                let path = if is_only { "medium".to_owned() } else { format!("media.{name}") };
                 flatten(path, medium, found);
             }
         }

@@ -102,6 +102,7 @@ const COUNTED: &[&str] = &[
     "objects.*.size",
     "objects.*.rotate_deg",
     "objects.*.albedo",
+    "objects.*.material.albedo",
     "estimator.mode",
     "estimator.max_depth",
 ];
@@ -147,15 +148,20 @@ fn text_today(doc: &SceneDoc, mut content: impl FnMut(&str) -> String) -> Option
 }
 
 /// The text of a scene with one medium in format 1, which has a table `[medium]` without the keys that several
-/// media need.
+/// media need, and objects with an albedo in place of a material.
 fn in_format_1(text: &str) -> Option<String> {
     let mut written: DocumentMut = text.parse().ok()?;
-    let media = written.remove("medium")?.into_array_of_tables().ok()?;
+    let media = written.remove("media")?.into_array_of_tables().ok()?;
     let mut medium = media.iter().next()?.clone();
     for key in ["name", "enabled", "within"] {
         medium.remove(key);
     }
     written.insert("medium", Item::Table(medium));
+    let objects = written.get_mut("objects").and_then(Item::as_array_of_tables_mut);
+    for object in objects.into_iter().flat_map(|objects| objects.iter_mut()) {
+        let albedo = object.remove("material")?.as_table_mut()?.remove("albedo")?;
+        object.insert("albedo", albedo);
+    }
     if let Some(Item::Value(version)) = written.get_mut("majorant") {
         *version = Value::from(1).decorated(" ", "");
     }
@@ -215,7 +221,7 @@ mod tests {
         let grid = || GridRef { file: "a.vdb".into(), grid: Some("smoke".into()) };
         let mut full = SceneDoc {
             lights: LightDoc::templates().into_iter().map(|(_, light)| light).collect(),
-            objects: ObjectDoc::templates().into_iter().map(|(_, object)| object).collect(),
+            objects: ObjectDoc::templates().into_iter().take(2).map(|(_, object)| object).collect(),
             ..SceneDoc::default()
         };
         let points = vec![ControlPoint { lambda_nm: 500.0, value: 0.5 }];
@@ -257,6 +263,7 @@ mod tests {
         for doc in documents() {
             let text = thawed(&text_today(&doc, str::to_owned).unwrap());
             assert!(!text.contains("enabled") && !text.contains("mirror"), "{text}");
+            assert!(!text.contains("material") && !text.contains("media"), "{text}");
             assert_eq!(thawed(&text), text);
             // A changed default, and new keys and tables.
             let later = text.replacen("absorption = \"weighted\"", "absorption = \"analogue\"", 1);

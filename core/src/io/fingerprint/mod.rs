@@ -74,7 +74,9 @@ fn of_lines(
             (Type::File, Some(file)) if !file.is_empty() => content(file),
             _ => canonical(&leaf.value),
         };
-        text.push_str(&format!("{} = {value}\n", leaf.path));
+        // The name that the key had before objects had materials.
+        let path = leaf.path.replace(".material.albedo", ".albedo");
+        text.push_str(&format!("{path} = {value}\n"));
     }
     of_bytes(text.as_bytes())
 }
@@ -215,5 +217,35 @@ mod tests {
         assert_ne!(name(|d| d.medium_mut().scale = 2.0), plain);
         assert_ne!(name(|d| d.estimator.max_depth = Some(2)), plain);
         assert_ne!(name(|d| d.lights.clear()), plain);
+    }
+
+    /// Objects have the fingerprint that they had when their albedo was a key of the object.
+    #[test]
+    fn objects_of_format_1_keep_their_fingerprint() {
+        let text = "majorant = 1
+            title = \"fp\"
+            film = { width = 16, height = 16 }
+            [[lights]]
+            kind = \"environment\"
+            [[objects]]
+            kind = \"ground\"
+            point = [0.0, -0.5, 0.0]
+            albedo = 0.25
+            [[objects]]
+            kind = \"box\"
+            center = [0.8, -0.2, 0.0]
+            size = [0.3, 0.6, 0.3]
+            rotate_deg = [0.0, 20.0, 0.0]
+            albedo = { rgb = [0.1, 0.2, 0.3] }
+            [[objects]]
+            kind = \"box\"
+            center = [0.0, 0.0, 9.0]
+            size = [0.3, 0.6, 0.3]";
+        let mut library = Library::default();
+        let mut doc = scene_file::parse(text, "objects").unwrap();
+        assert_eq!(library.fingerprint(&doc), "c2ceb8b22aef5374");
+        // An emission counts although its scale is the default.
+        doc.objects[1].emission = Some(crate::scene::SurfaceEmissionDoc::default());
+        assert_ne!(library.fingerprint(&doc), "c2ceb8b22aef5374");
     }
 }

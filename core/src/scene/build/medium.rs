@@ -11,6 +11,7 @@ use crate::scene::{
     WhenExceeded, Within, placement,
 };
 use crate::spectrum::Spectrum;
+use crate::surface::Solid;
 use glam::{Affine3A, DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
@@ -21,10 +22,12 @@ const MAX_OPTICAL_DEPTH: f32 = 1e6;
 /// Maximum albedo of a medium without a boundary, in which paths end by absorption alone.
 const MAX_UNBOUNDED_ALBEDO: f32 = 0.9999;
 
-/// Freezes one medium of a document, given its index and its key in messages.
+/// Freezes one medium of a document, given its index, its key in messages and the closed object that it fills, if
+/// any.
 pub(super) fn build(
     doc: &MediumDoc,
     (index, path): (usize, &str),
+    solid: Option<Arc<Solid>>,
     resources: &mut dyn Resources,
     notices: &mut Vec<String>,
 ) -> Result<(SceneMedium, MediumInfo), SceneError> {
@@ -35,10 +38,11 @@ pub(super) fn build(
     let (medium, emission, object_from_unit, mut info) =
         build_medium(doc, path, phase.mean_cosine(), resources, notices)?;
     info.phase_points = phase_points;
-    let (region, bounds) = match (doc.within, doc.extent) {
-        (Within::Grid, _) => {
+    let (region, bounds) = match (&doc.within, doc.extent) {
+        (Within::Grid | Within::Object(_), _) => {
             let world_from_unit = placement::world_from_unit(&doc.placement, object_from_unit);
             let (lo, hi) = placement::bounds(&world_from_unit);
+            let own = (lo.as_vec3(), hi.as_vec3());
             // Relative to the edge lengths: a tiny box is valid, a flat one is not.
             let m = world_from_unit.matrix3;
             let edges = m.x_axis.length() * m.y_axis.length() * m.z_axis.length();
@@ -47,7 +51,24 @@ pub(super) fn build(
                 let message = "the box has no volume: give every scale a value other than 0";
                 return Err(invalid("placement", message));
             }
-            (Region::Cube(medium_from_world), Some((lo.as_vec3(), hi.as_vec3())))
+            match solid {
+                None => (Region::Cube(medium_from_world), Some(own)),
+                Some(solid) => {
+                    // A grid of any kind ends at its box; uniform coefficients fill the object.
+                    let temperature =
+                        doc.emission.as_ref().and_then(|emission| emission.temperature.as_ref());
+                    let cut_by_cube = !doc.is_uniform() || temperature.is_some();
+                    let (lo, hi) = solid.bounds();
+                    let bounds = if cut_by_cube { (lo.max(own.0), hi.min(own.1)) } else { (lo, hi) };
+                    if bounds.0.cmpge(bounds.1).any() {
+                        notices.push(format!(
+                            "The medium `{}` lies outside the object that bounds it.",
+                            doc.name
+                        ));
+                    }
+                    (Region::Inside { solid, medium_from_world, cut_by_cube }, Some(bounds))
+                }
+            }
         }
         (Within::Everywhere, Some(radius)) => {
             (Region::Ball(radius), Some((Vec3::splat(-radius), Vec3::splat(radius))))
@@ -71,8 +92,8 @@ pub(super) fn build(
     if let Some((lo, hi)) = bounds {
         check_optical_depth(doc, path, info.majorant * (hi - lo).length(), notices)?;
     }
-    let placed = PlacedMedium::new(medium, region);
     let medium_from_world = region.medium_from_world();
+    let placed = PlacedMedium::new(medium, region);
     Ok((SceneMedium { index, placed, phase, emission, bounds, medium_from_world }, info))
 }
 

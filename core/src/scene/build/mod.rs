@@ -1,18 +1,18 @@
 //! Freezes a document into a scene.
 
 mod medium;
+mod object;
 
-use super::{
-    Camera, GridRef, LightDoc, ObjectDoc, Scene, SceneDoc, SceneError, SceneInfo, placement, validate,
-};
+use super::{Camera, GridRef, LightDoc, ObjectDoc, Scene, SceneDoc, SceneError, SceneInfo, Within, validate};
 use crate::light::{
     Environment, EnvironmentMap, Light, LightChoice, LightKind, LightLobes, Panorama, RectangleLight,
     SphereLight, Sun,
 };
-use crate::medium::{Grid, Majorants, Precision, Region};
+use crate::material::Material;
+use crate::medium::{Grid, Majorants, Precision};
 use crate::spectrum::{Quantity, Spectrum, SpectrumDoc};
-use crate::surface::{OrientedBox, Plane, Rectangle, Role, Shape, Sphere, Surface};
-use glam::{DAffine3, Vec3};
+use crate::surface::{Mesh, Rectangle, Shape, Solid, Sphere, Surface};
+use glam::DAffine3;
 use std::sync::Arc;
 
 /// A grid and its bounding box in the space of its file.
@@ -63,6 +63,12 @@ pub trait Resources {
     /// As for [`Self::scalar_grid`].
     fn panorama(&mut self, file: &str) -> Result<(Arc<Panorama>, Vec<String>), ResourceError>;
 
+    /// Returns a triangle mesh and the repairs made while reading it.
+    ///
+    /// # Errors
+    /// As for [`Self::scalar_grid`].
+    fn mesh(&mut self, file: &str) -> Result<(Arc<Mesh>, Vec<String>), ResourceError>;
+
     /// Returns the points of a tabulated phase function.
     ///
     /// # Errors
@@ -80,11 +86,20 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         return Err(SceneError::Invalid(problem));
     }
     let mut notices = Vec::new();
-    let (mut media, mut info) = (Vec::new(), SceneInfo::default());
+    let mut info = SceneInfo::default();
+    let mut objects = Vec::new();
+    for (index, object) in doc.objects.iter().enumerate() {
+        // Objects without a surface may still bound a medium.
+        let built = object::build(object, index, resources, &mut notices)?;
+        info.objects.push(built.info);
+        objects.push(built.shape);
+    }
+    let mut media = Vec::new();
     for (index, medium) in doc.media.iter().enumerate() {
         let (built, described) = if medium.enabled {
             let path = doc.medium_path(index);
-            let (built, info) = medium::build(medium, (index, &path), resources, &mut notices)?;
+            let solid = solid_of(doc, &medium.within, &objects, &path)?;
+            let (built, info) = medium::build(medium, (index, &path), solid, resources, &mut notices)?;
             (Some(built), Some(info))
         } else {
             (None, None)
@@ -108,14 +123,24 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
             LightKind::Sphere(l) => Some(Shape::Sphere(l.shape)),
             _ => None,
         };
-        surfaces.extend(shape.map(|shape| Surface { shape, role: Role::Light(lights.len()) }));
+        let light_index = Some(lights.len());
+        surfaces.extend(shape.map(|shape| Surface { shape, light: light_index, material: None }));
         lights.push(Light { kind: built, visible: light.visible() });
     }
-    surfaces.extend(doc.objects.iter().filter(|object| object.enabled()).map(build_object));
+    let with_surface = |(_, (object, _)): &(usize, (&ObjectDoc, Shape))| object.has_surface();
+    for (index, (object, shape)) in doc.objects.iter().zip(objects).enumerate().filter(with_surface) {
+        let (mut shape, mut light) = (shape, None);
+        if let Some(emission) = &object.emission {
+            let (kind, emitting) = object::build_light(emission, shape, index)?;
+            (shape, light) = (emitting, Some(lights.len()));
+            lights.push(Light { kind, visible: emission.visible });
+        }
+        surfaces.push(Surface { shape, light, material: object::build_material(&object.material) });
+    }
     if lights.is_empty() && media.iter().all(|medium| medium.emission.is_none()) {
         notices.push("No light: the image is black. Add a light.".into());
     }
-    let is_unbounded = media.iter().any(|medium| medium.placed.region == Region::Everywhere);
+    let is_unbounded = media.iter().any(|medium| medium.placed.region.is_unbounded());
     if is_unbounded && lights.iter().any(|light| light.center().is_none()) {
         notices.push(
             "A medium that reaches to infinity extinguishes suns, environments and environment maps: give it an \
@@ -124,11 +149,9 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         );
     }
 
-    let flat_surfaces = surfaces.iter().all(|surface: &Surface| match &surface.role {
-        Role::Diffuse(albedo) => albedo.is_flat(),
-        Role::Light(_) => true,
-    });
-
+    let flat_surfaces = surfaces
+        .iter()
+        .all(|surface: &Surface| surface.material.as_ref().is_none_or(Material::is_achromatic));
     let achromatic = media.iter().all(|medium| medium.placed.medium.is_achromatic());
     Ok(Scene {
         lobes: LightLobes::towards(&lights),
@@ -188,19 +211,15 @@ fn build_light(
     })
 }
 
-fn build_object(doc: &ObjectDoc) -> Surface {
-    let (shape, albedo) = match doc {
-        ObjectDoc::Ground { point, normal, albedo, .. } => {
-            (Shape::Plane(Plane { point: (*point).into(), normal: Vec3::from(*normal).normalize() }), albedo)
-        }
-        ObjectDoc::Box { center, size, rotate_deg, albedo, .. } => (
-            Shape::Box(OrientedBox {
-                center: (*center).into(),
-                half_size: Vec3::from(*size) * 0.5,
-                world_from_box: placement::rotation(*rotate_deg),
-            }),
-            albedo,
-        ),
-    };
-    Surface { shape, role: Role::Diffuse(coefficient(albedo)) }
+/// The closed object that a medium fills, if it fills one.
+fn solid_of(
+    doc: &SceneDoc,
+    within: &Within,
+    objects: &[Shape],
+    path: &str,
+) -> Result<Option<Arc<Solid>>, SceneError> {
+    let Within::Object(name) = within else { return Ok(None) };
+    let found = doc.object_named(name).and_then(|(index, _)| objects.get(index));
+    let Some(shape) = found else { return Ok(None) };
+    object::build_solid(shape, name, &format!("{path}.within")).map(|solid| Some(Arc::new(solid)))
 }

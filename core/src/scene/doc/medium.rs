@@ -57,15 +57,42 @@ pub struct MediumDoc {
 /// Name of a medium that has none in its file.
 const DEFAULT_NAME: &str = "medium";
 
-/// Region that a medium fills.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// Region that a medium fills, written as `grid`, `everywhere` or the name of an object.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
 pub enum Within {
     /// The box of its grid, or a unit cube for a uniform density, with its placement.
     #[default]
     Grid,
     /// All of space, or a ball about the origin if an extent is given; for a uniform density.
     Everywhere,
+    /// The inside of a closed object. A grid also ends at its own box.
+    Object(String),
+}
+
+impl Within {
+    /// Names of regions that are not objects.
+    pub const RESERVED: [&str; 2] = ["grid", "everywhere"];
+}
+
+impl From<String> for Within {
+    fn from(name: String) -> Self {
+        match name.as_str() {
+            "grid" => Self::Grid,
+            "everywhere" => Self::Everywhere,
+            _ => Self::Object(name),
+        }
+    }
+}
+
+impl From<Within> for String {
+    fn from(within: Within) -> Self {
+        match within {
+            Within::Grid => "grid".into(),
+            Within::Everywhere => "everywhere".into(),
+            Within::Object(name) => name,
+        }
+    }
 }
 
 impl MediumDoc {
@@ -90,7 +117,7 @@ pub(super) fn one_or_several<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<M
         type Value = Vec<MediumDoc>;
 
         fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-            f.write_str("[[medium]], a list of media")
+            f.write_str("[[media]], a list of media")
         }
 
         fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {

@@ -27,7 +27,7 @@ pub use estimator::{
 pub use fault::{Fault, FaultEntry};
 pub use light::LightDoc;
 pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc, Within};
-pub use object::ObjectDoc;
+pub use object::{MaterialDoc, ObjectDoc, ShapeDoc, SurfaceEmissionDoc};
 pub use render::{Limits, RenderDoc};
 
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ pub struct SceneDoc {
     pub film: FilmDoc,
     /// Media. Where they overlap, their coefficients add.
     #[serde(
-        rename = "medium",
+        alias = "medium",
         default,
         deserialize_with = "medium::one_or_several",
         skip_serializing_if = "Vec::is_empty"
@@ -68,7 +68,7 @@ pub struct SceneDoc {
     /// Light sources.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<LightDoc>,
-    /// Diffuse surfaces.
+    /// Objects: surfaces that block, reflect or emit light, and boundaries of media.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objects: Vec<ObjectDoc>,
     /// Estimator of light transport.
@@ -153,6 +153,40 @@ impl SceneDoc {
         self.media.iter().filter(|medium| medium.enabled)
     }
 
+    /// The object with a name, with its index.
+    #[must_use]
+    pub fn object_named(&self, name: &str) -> Option<(usize, &ObjectDoc)> {
+        self.objects.iter().enumerate().find(|(_, object)| !name.is_empty() && object.name == name)
+    }
+
+    /// A name for a new object that no other object has: `base`, or `base 2`, `base 3`, …; empty if `base` is.
+    #[must_use]
+    pub fn free_object_name(&self, base: &str) -> String {
+        let taken = |name: &str| self.object_named(name).is_some() || Within::RESERVED.contains(&name);
+        let numbered = (2..).map(|n| format!("{base} {n}"));
+        std::iter::once(base.to_owned())
+            .chain(numbered)
+            .find(|name| base.is_empty() || !taken(name))
+            .unwrap_or_default()
+    }
+
+    /// Renames an object in the list and in the media within it.
+    pub fn rename_object(&mut self, index: usize, name: String) {
+        let Some(object) = self.objects.get_mut(index) else { return };
+        let before = Within::Object(std::mem::replace(&mut object.name, name.clone()));
+        for medium in self.media.iter_mut().filter(|medium| medium.within == before) {
+            medium.within = Within::Object(name.clone());
+        }
+    }
+
+    /// Removes an object; media within it fill their own boxes instead.
+    pub fn remove_object(&mut self, index: usize) {
+        let removed = Within::Object(self.objects.remove(index).name);
+        for medium in self.media.iter_mut().filter(|medium| medium.within == removed) {
+            medium.within = Within::Grid;
+        }
+    }
+
     /// Key of a medium in messages: `medium`, or `medium[1]` where there are several.
     #[must_use]
     pub fn medium_path(&self, index: usize) -> String {
@@ -192,6 +226,11 @@ impl SceneDoc {
         }
         for light in &mut self.lights {
             if let LightDoc::EnvironmentMap { file, .. } = light {
+                files.push(file);
+            }
+        }
+        for object in &mut self.objects {
+            if let ShapeDoc::Mesh { file, .. } = &mut object.shape {
                 files.push(file);
             }
         }

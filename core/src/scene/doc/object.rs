@@ -1,10 +1,14 @@
-//! Editable diffuse surfaces.
+//! Editable objects: shapes with a material.
 
+use super::PlacementDoc;
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
 
 fn grey() -> SpectrumDoc {
     SpectrumDoc::Constant(0.5)
+}
+fn unit() -> f32 {
+    1.0
 }
 fn present() -> bool {
     true
@@ -13,10 +17,51 @@ fn world_up() -> [f32; 3] {
     [0.0, 1.0, 0.0]
 }
 
-/// Diffuse surface; it receives light and blocks it.
+/// A shape with a material. It may emit light, and bound media.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "WrittenObject")]
+pub struct ObjectDoc {
+    /// Name by which media refer to the object; empty if none does.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Whether its surface is part of the scene. Media within the object keep their region.
+    pub enabled: bool,
+    /// Shape.
+    #[serde(flatten)]
+    pub shape: ShapeDoc,
+    /// How the surface scatters light.
+    pub material: MaterialDoc,
+    /// Light emitted on the outer side. Absent: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub emission: Option<SurfaceEmissionDoc>,
+}
+
+/// An object as written in a file: with the albedo of version 1 in place of the material.
+#[derive(Deserialize)]
+struct WrittenObject {
+    #[serde(default)]
+    name: String,
+    #[serde(default = "present")]
+    enabled: bool,
+    #[serde(flatten)]
+    shape: ShapeDoc,
+    material: Option<MaterialDoc>,
+    albedo: Option<SpectrumDoc>,
+    emission: Option<SurfaceEmissionDoc>,
+}
+
+impl From<WrittenObject> for ObjectDoc {
+    fn from(written: WrittenObject) -> Self {
+        let WrittenObject { name, enabled, shape, material, albedo, emission } = written;
+        let diffuse = albedo.map(|albedo| MaterialDoc::Diffuse { albedo });
+        Self { name, enabled, shape, material: diffuse.or(material).unwrap_or_default(), emission }
+    }
+}
+
+/// Shape of an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum ObjectDoc {
+pub enum ShapeDoc {
     /// An infinite plane.
     Ground {
         /// A point on the plane.
@@ -25,14 +70,8 @@ pub enum ObjectDoc {
         /// Normal of the upper side; the other side reflects as well.
         #[serde(default = "world_up")]
         normal: [f32; 3],
-        /// Reflected fraction, 0 to 1.
-        #[serde(default = "grey")]
-        albedo: SpectrumDoc,
-        /// Whether the surface is part of the scene.
-        #[serde(default = "present")]
-        enabled: bool,
     },
-    /// A solid box.
+    /// A box.
     Box {
         /// Centre.
         center: [f32; 3],
@@ -41,58 +80,168 @@ pub enum ObjectDoc {
         /// Rotation about x, then y, then z, degrees.
         #[serde(default)]
         rotate_deg: [f32; 3],
-        /// Reflected fraction, 0 to 1.
-        #[serde(default = "grey")]
-        albedo: SpectrumDoc,
-        /// Whether the surface is part of the scene.
-        #[serde(default = "present")]
-        enabled: bool,
+    },
+    /// A sphere.
+    Sphere {
+        /// Centre.
+        center: [f32; 3],
+        /// Radius.
+        radius: f32,
+    },
+    /// A disk.
+    Disk {
+        /// Centre.
+        center: [f32; 3],
+        /// Normal, on the side that emits.
+        #[serde(default = "world_up")]
+        normal: [f32; 3],
+        /// Radius.
+        radius: f32,
+    },
+    /// A rectangle.
+    Rectangle {
+        /// Centre.
+        center: [f32; 3],
+        /// Point that the emitting side faces.
+        target: [f32; 3],
+        /// Direction of the height, projected onto the rectangle.
+        #[serde(default = "world_up")]
+        up: [f32; 3],
+        /// Width and height.
+        size: [f32; 2],
+    },
+    /// A triangle mesh from a file.
+    Mesh {
+        /// File, relative to the scene: OBJ, PLY or glTF.
+        file: String,
+        /// Placement; by default the mesh stands at the coordinates of its file.
+        #[serde(default)]
+        placement: PlacementDoc,
     },
 }
 
-impl ObjectDoc {
-    /// One object of each kind with its display name.
+/// Material of an object.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum MaterialDoc {
+    /// Lambertian reflection on both sides.
+    Diffuse {
+        /// Reflected fraction, 0 to 1.
+        #[serde(default = "grey")]
+        albedo: SpectrumDoc,
+    },
+    /// An index-matched boundary: light passes unchanged.
+    Interface {},
+}
+
+impl Default for MaterialDoc {
+    fn default() -> Self {
+        Self::Diffuse { albedo: grey() }
+    }
+}
+
+impl MaterialDoc {
+    /// One material of each kind with its display name.
     #[must_use]
     pub fn templates() -> Vec<(&'static str, Self)> {
-        vec![
-            (
-                "Ground plane",
-                Self::Ground { point: [0.0, -0.5, 0.0], normal: world_up(), albedo: grey(), enabled: true },
-            ),
-            (
-                "Box",
-                Self::Box {
-                    center: [0.8, -0.2, 0.0],
-                    size: [0.3, 0.6, 0.3],
-                    rotate_deg: [0.0, 20.0, 0.0],
-                    albedo: grey(),
-                    enabled: true,
-                },
-            ),
-        ]
+        vec![("Diffuse", Self::default()), ("Interface", Self::Interface {})]
     }
+}
 
+/// Light that a surface emits on its outer side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceEmissionDoc {
+    /// Emitted radiance.
+    pub radiance: SpectrumDoc,
+    /// Multiplies the radiance.
+    #[serde(default = "unit")]
+    pub scale: f32,
+    /// Visibility to camera rays.
+    #[serde(default = "present")]
+    pub visible: bool,
+}
+
+impl Default for SurfaceEmissionDoc {
+    fn default() -> Self {
+        Self { radiance: SpectrumDoc::Constant(1.0), scale: 1.0, visible: true }
+    }
+}
+
+impl ShapeDoc {
     /// Display name of the kind.
     #[must_use]
     pub fn kind_name(&self) -> &'static str {
         match self {
             Self::Ground { .. } => "Ground plane",
             Self::Box { .. } => "Box",
+            Self::Sphere { .. } => "Sphere",
+            Self::Disk { .. } => "Disk",
+            Self::Rectangle { .. } => "Rectangle",
+            Self::Mesh { .. } => "Mesh",
         }
     }
 
-    /// Returns whether the surface is part of the scene.
+    /// Returns whether the shape has an inside that a medium can fill. A mesh has one if it is closed.
     #[must_use]
-    pub fn enabled(&self) -> bool {
-        match self {
-            Self::Ground { enabled, .. } | Self::Box { enabled, .. } => *enabled,
-        }
+    pub fn has_inside(&self) -> bool {
+        matches!(self, Self::Box { .. } | Self::Sphere { .. } | Self::Mesh { .. })
+    }
+}
+
+impl ObjectDoc {
+    /// Creates a diffuse object without a name.
+    #[must_use]
+    pub fn new(shape: ShapeDoc) -> Self {
+        Self { name: String::new(), enabled: true, shape, material: MaterialDoc::default(), emission: None }
     }
 
-    /// Whether the surface is part of the scene, to be edited.
-    pub fn enabled_mut(&mut self) -> &mut bool {
-        match self {
-            Self::Ground { enabled, .. } | Self::Box { enabled, .. } => enabled,
+    /// One object of each kind with its display name.
+    #[must_use]
+    pub fn templates() -> Vec<(&'static str, Self)> {
+        let up = world_up();
+        let shapes = [
+            ShapeDoc::Ground { point: [0.0, -0.5, 0.0], normal: up },
+            ShapeDoc::Box { center: [0.8, -0.2, 0.0], size: [0.3, 0.6, 0.3], rotate_deg: [0.0, 20.0, 0.0] },
+            ShapeDoc::Sphere { center: [0.8, -0.2, 0.0], radius: 0.3 },
+            ShapeDoc::Disk { center: [0.0, -0.6, 0.0], normal: up, radius: 0.5 },
+            ShapeDoc::Rectangle { center: [0.0, 0.0, -1.0], target: [0.0; 3], up, size: [2.0, 2.0] },
+            ShapeDoc::Mesh { file: String::new(), placement: PlacementDoc::default() },
+        ];
+        shapes.into_iter().map(|shape| (shape.kind_name(), Self::new(shape))).collect()
+    }
+
+    /// Returns whether the object has a surface that light meets.
+    #[must_use]
+    pub fn has_surface(&self) -> bool {
+        self.enabled && (self.emission.is_some() || self.material != MaterialDoc::Interface {})
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Files of version 1 give an albedo, later ones a material; an unknown key is refused.
+    #[test]
+    fn an_albedo_is_read_as_a_diffuse_material() {
+        let read = |text: &str| toml::from_str::<ObjectDoc>(text);
+        let plain = read("kind = \"sphere\"\ncenter = [0.0, 1.0, 0.0]\nradius = 2.0").unwrap();
+        assert_eq!(plain, ObjectDoc::new(ShapeDoc::Sphere { center: [0.0, 1.0, 0.0], radius: 2.0 }));
+        let old = read("kind = \"ground\"\nalbedo = 0.25").unwrap();
+        let new = read("kind = \"ground\"\nmaterial = { kind = \"diffuse\", albedo = 0.25 }").unwrap();
+        assert_eq!(old, new);
+        assert_eq!(old.material, MaterialDoc::Diffuse { albedo: SpectrumDoc::Constant(0.25) });
+        for bad in [
+            "kind = \"ground\"\nradius = 1.0",
+            "kind = \"ground\"\nemission = { scale = 1 }",
+            "kind = \"cone\"",
+        ] {
+            assert!(read(bad).is_err(), "{bad}");
+        }
+        for (_, object) in ObjectDoc::templates() {
+            let text = toml::to_string(&object).unwrap();
+            assert_eq!(read(&text).unwrap(), object, "{text}");
         }
     }
 }

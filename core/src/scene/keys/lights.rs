@@ -1,10 +1,10 @@
-//! Keys of lights and objects.
+//! Keys of lights.
 
-use super::{COORDINATE, Default, Key, LENGTH, Range, SHARE, Type};
+use super::{COORDINATE, Default, Key, LENGTH, Range, Type};
 use Default::{Is, Required};
 
-const RADIANCE: Type = Type::Spectrum(Range::closed(0.0, 1e9));
-const RADIANCE_TIP: &str = "Le(λ) = scale · radiance(λ), per scene unit², steradian and nm";
+pub(super) const RADIANCE: Type = Type::Spectrum(Range::closed(0.0, 1e9));
+pub(super) const RADIANCE_TIP: &str = "Le(λ) = scale · radiance(λ), per scene unit², steradian and nm";
 
 pub(super) const KEYS: &[Key] = &[
     Key::new(
@@ -99,47 +99,4 @@ pub(super) const KEYS: &[Key] = &[
         "Visible to camera rays; the light illuminates the scene either way",
     ),
     Key::new("lights.*.enabled", Type::Bool, Is("true"), "Enabled", "Whether the light is part of the scene"),
-    Key::new("objects.*.kind", Type::Choice(&["ground", "box"]), Required, "Kind", "Kind of surface"),
-    Key::new(
-        "objects.*.point",
-        Type::Vector(3, COORDINATE),
-        Is("[0.0, 0.0, 0.0]"),
-        "Point",
-        "A point on the plane",
-    )
-    .kinds(&["ground"]),
-    Key::new(
-        "objects.*.normal",
-        Type::Direction,
-        Is("[0.0, 1.0, 0.0]"),
-        "Normal",
-        "Normal of the upper side",
-    )
-    .kinds(&["ground"]),
-    Key::new("objects.*.center", Type::Vector(3, COORDINATE), Required, "Centre", "Position of the centre")
-        .kinds(&["box"]),
-    Key::new("objects.*.size", Type::Vector(3, LENGTH), Required, "Size", "Edge lengths").kinds(&["box"]),
-    Key::new(
-        "objects.*.rotate_deg",
-        Type::Vector(3, COORDINATE),
-        Is("[0.0, 0.0, 0.0]"),
-        "Rotation",
-        "Rotation about x, then y, then z",
-    )
-    .unit("°")
-    .kinds(&["box"]),
-    Key::new(
-        "objects.*.albedo",
-        Type::Spectrum(SHARE),
-        Is("0.5"),
-        "Albedo",
-        "Fraction of incident light that is reflected, 0 to 1",
-    ),
-    Key::new(
-        "objects.*.enabled",
-        Type::Bool,
-        Is("true"),
-        "Enabled",
-        "Whether the surface is part of the scene",
-    ),
 ];

@@ -24,10 +24,11 @@ pub(super) const KEYS: &[Key] = &[
     Key::new("medium.enabled", Type::Bool, Is("true"), "Enabled", "Whether the medium is part of the scene"),
     Key::new(
         "medium.within",
-        Type::Choice(&["grid", "everywhere"]),
+        Type::Text,
         Is("\"grid\""),
         "Within",
-        "Region that the medium fills: the box of its grid (a unit cube for a uniform density), or all of space",
+        "Region that the medium fills: `grid` for the box of its grid (a unit cube for a uniform density), \
+         `everywhere`, or the name of a closed object",
     ),
     Key::new(
         "medium.extent",

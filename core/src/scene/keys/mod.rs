@@ -1,7 +1,7 @@
 //! Table of keys: one row per key of a scene file.
 //!
 //! ```text
-//!   camera, medium, phase, lights, estimator, render, compare, window
+//!   camera, medium, phase, lights, objects, estimator, render, compare, window
 //!     ──► all() ──► validation, panels, `majorant keys`, parts of documents, fingerprints, unbiased()
 //! ```
 //!
@@ -15,6 +15,7 @@ mod compare;
 mod estimator;
 mod lights;
 mod medium;
+mod objects;
 mod part;
 mod phase;
 mod render;
@@ -312,7 +313,9 @@ pub fn all() -> &'static [Key] {
     static ALL: OnceLock<Vec<Key>> = OnceLock::new();
     ALL.get_or_init(|| {
         let own = [camera::KEYS, medium::KEYS].concat();
-        let mut all = [own, phase::keys(), [lights::KEYS, estimator::KEYS, render::KEYS].concat()].concat();
+        let mut all =
+            [own, phase::keys(), [lights::KEYS, objects::KEYS, estimator::KEYS, render::KEYS].concat()]
+                .concat();
         all.extend(compare::KEYS);
         all.extend(compare::of_views(&all));
         all.extend(window::KEYS);

@@ -31,8 +31,11 @@ impl Leaf {
     }
 }
 
-/// Section of the media, a list whose keys have no index.
+/// Section of the media: a list in a file, whose keys have no index.
 const MEDIUM: &str = "medium";
+
+/// Name of the list of media in a file.
+const MEDIA: &str = "media";
 
 /// Indices of keys in the table, by path.
 fn places() -> &'static HashMap<&'static str, Vec<usize>> {
@@ -71,6 +74,7 @@ fn walk(table: Table, pattern: &str, path: &str, found: &mut Vec<Leaf>) {
     let kind = table.get("kind").and_then(Value::as_str).map(str::to_owned);
     let dot = if pattern.is_empty() { "" } else { "." };
     for (name, value) in table {
+        let name = if pattern.is_empty() && name == MEDIA { MEDIUM.to_owned() } else { name };
         let (pattern, path) = (format!("{pattern}{dot}{name}"), format!("{path}{dot}{name}"));
         let places = places().get(pattern.as_str()).map(Vec::as_slice).unwrap_or_default();
         if let Some(index) = places.iter().find(|index| all()[**index].is_of(kind.as_deref())) {

@@ -2,6 +2,7 @@
 
 mod compare;
 mod medium;
+mod object;
 
 use super::{LightDoc, SceneDoc, keys};
 use glam::Vec3;
@@ -83,5 +84,6 @@ fn scene_problems(doc: &SceneDoc) -> Vec<Problem> {
             LightDoc::Sphere { .. } | LightDoc::Sun { .. } | LightDoc::Environment { .. } => {}
         }
     }
+    object::objects(&mut c, doc);
     c.problems
 }

@@ -12,6 +12,7 @@ use glam::Vec3;
 use majorant_core::inspect::{Branch, Row, Step};
 use majorant_core::medium::Region;
 use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc, SceneMedium};
+use majorant_core::surface::Solid;
 use majorant_core::transport::Note;
 
 /// Number of steps in the search for the visible part of a line.
@@ -134,17 +135,33 @@ fn first_look(doc: &SceneDoc, center: Vec3, size: f32) -> CameraDoc {
 }
 
 impl Eye<'_> {
-    /// Draws the edges of the boxes of all media; balls by three circles.
+    /// Draws the boundaries of all media: the edges of boxes, balls by three circles.
     fn media(&self, scene: &Scene) {
         let stroke = Stroke::new(1.0, self.palette.line);
         for medium in &scene.media {
-            match medium.placed.region {
+            match &medium.placed.region {
                 Region::Cube(medium_from_world) => {
                     let world = medium_from_world.inverse();
                     self.frame(|unit| world.transform_point3(unit), stroke);
                 }
-                Region::Ball(radius) => self.circles(Vec3::ZERO, radius, stroke),
+                Region::Ball(radius) => self.circles(Vec3::ZERO, *radius, stroke),
+                Region::Inside { solid, .. } => self.solid(solid, stroke),
                 Region::Everywhere => {}
+            }
+        }
+    }
+
+    /// Draws the edges of a box, a sphere by three circles, and the bounds of a mesh.
+    fn solid(&self, solid: &Solid, stroke: Stroke) {
+        match solid {
+            Solid::Sphere(sphere) => self.circles(sphere.center, sphere.radius, stroke),
+            Solid::Box(b) => {
+                let corner = |unit: Vec3| (unit * 2.0 - 1.0) * b.half_size;
+                self.frame(|unit| b.center + b.world_from_box * corner(unit), stroke);
+            }
+            Solid::Mesh(mesh) => {
+                let (lo, hi) = mesh.bounds();
+                self.frame(|unit| lo + unit * (hi - lo), stroke);
             }
         }
     }
