@@ -12,8 +12,8 @@ use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::math::{Sampler, SamplerKind};
 use majorant_core::scene::keys;
 use majorant_core::scene::{
-    Absorption, Bookkeeping, DistanceSampling, EmissionDoc, GridRef, LightWalk, Mode, Scene, SceneDoc,
-    WhenExceeded, build,
+    Absorption, Bookkeeping, DistanceSampling, EmissionDoc, GridRef, IorDoc, LightWalk, MaterialDoc, Mode,
+    ObjectDoc, Scene, SceneDoc, ShapeDoc, SurfaceEmissionDoc, WhenExceeded, build,
 };
 use majorant_core::session::ViewId;
 use majorant_core::transport::{CancelToken, Note, Technique};
@@ -47,6 +47,29 @@ fn scenes() -> Vec<(String, SceneDoc)> {
         doc.medium_mut().emission = Some(EmissionDoc { temperature: Some(grid), kelvin: 1.3, scale: 20.0 });
         doc.estimator.distances = DistanceSampling::Decomposition;
         doc.estimator.bookkeeping = Bookkeeping::Pairwise;
+    });
+    let objects = |doc: &mut SceneDoc| {
+        let at = |center: [f32; 3], radius: f32| ShapeDoc::Sphere { center, radius };
+        let mut add = |shape, material, emission| {
+            doc.objects.push(ObjectDoc { material, emission, ..ObjectDoc::new(shape) });
+        };
+        let ior = || IorDoc::Cauchy { cauchy: [1.4, 0.01] };
+        let metal =
+            MaterialDoc::Conductor { preset: Some("gold".into()), eta: None, k: None, roughness: 0.3 };
+        add(at([0.4, 0.2, 0.4], 0.25), MaterialDoc::Dielectric { ior: ior(), roughness: 0.0 }, None);
+        add(at([-0.3, 0.3, 0.5], 0.2), MaterialDoc::Dielectric { ior: ior(), roughness: 0.3 }, None);
+        let size = [0.3, 0.5, 0.3];
+        add(ShapeDoc::Box { center: [0.0, -0.3, 0.6], size, rotate_deg: [0.0, 30.0, 0.0] }, metal, None);
+        let lamp = Some(SurfaceEmissionDoc::default());
+        let tilt = [10.0, 0.0, 20.0];
+        let lamp_box = ShapeDoc::Box { center: [0.5, 0.6, 0.3], size: [0.2; 3], rotate_deg: tilt };
+        add(lamp_box, MaterialDoc::default(), lamp);
+    };
+    vary("glass, metal and a lamp, spectral", &objects);
+    vary("glass, metal and a lamp, rgb", &|doc| {
+        objects(doc);
+        doc.estimator.mode = Mode::Rgb;
+        doc.estimator.light_walk = LightWalk::Separate;
     });
     for (_, doc) in &mut scenes {
         (doc.film.width, doc.film.height) = (64, 48);
@@ -264,7 +287,7 @@ fn stored_weights_match_their_definitions_after_every_event() {
 /// Bits of the origin and direction of every ray that leaves a vertex of a path.
 fn turns(recording: &Recording) -> Vec<[u32; 6]> {
     let turn = |note: &Note| match note {
-        Note::Direction { ray, .. } => {
+        Note::Direction { ray, .. } | Note::Boundary { ray, .. } => {
             let [x, y, z] = ray.origin.to_array().map(f32::to_bits);
             let [a, b, c] = ray.direction.to_array().map(f32::to_bits);
             Some([x, y, z, a, b, c])

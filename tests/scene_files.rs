@@ -7,7 +7,7 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, DensityDoc, DirectionSampling,
-    DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics,
+    DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics, IorDoc,
     LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MaterialDoc, MeasureId, MediumDoc,
     MediumOverrides, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ShapeDoc,
     SurfaceEmissionDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides, WhenExceeded, Within,
@@ -30,7 +30,19 @@ fn objects() -> Vec<ObjectDoc> {
             placement.fit = Some(2.0);
         }
     }
-    objects[2].material = MaterialDoc::Interface {};
+    let sphere = ShapeDoc::Sphere { center: [1.0, 2.0, 3.0], radius: 0.5 };
+    let materials = MaterialDoc::templates().into_iter().map(|(_, material)| material);
+    let constants = MaterialDoc::Conductor {
+        preset: None,
+        eta: Some(SpectrumDoc::Constant(0.2)),
+        k: Some(SpectrumDoc::Rgb([3.0, 2.0, 1.0])),
+        roughness: 0.5,
+    };
+    let glass = MaterialDoc::Dielectric { ior: IorDoc::Cauchy { cauchy: [1.5, 0.004] }, roughness: 0.1 };
+    for (number, material) in (1..).zip(materials.chain([constants, glass])) {
+        let priority = number;
+        objects.push(ObjectDoc { material, priority, ..ObjectDoc::new(sphere.clone()) });
+    }
     objects
 }
 
@@ -408,6 +420,15 @@ fn objects_that_do_not_fit_are_rejected_where_they_stand() {
         ("[[objects]]\nkind = \"mesh\"\nfile = \"\"\n".into(), 4, "names no mesh"),
         (format!("[[objects]]\n{sphere}normal = [0.0, 1.0, 0.0]\n"), 6, "unknown field"),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"velvet\" }}\n"), 6, "velvet"),
+        (format!("[[objects]]\n{sphere}material = {{ kind = \"conductor\" }}\n"), 6, "needs a `preset`"),
+        (format!("[[objects]]\n{sphere}material = {{ kind = \"conductor\", preset = \"tin\" }}\n"), 6, "choose aluminium"),
+        (format!("[[objects]]\n{sphere}material = {{ kind = \"dielectric\", ior = 0.5 }}\n"), 6, "1 to 4"),
+        (
+            format!("[[objects]]\n{sphere}material = {{ kind = \"dielectric\", ior = {{ cauchy = [1.0, -0.1] }} }}\n"),
+            6,
+            "outside 1 to 4",
+        ),
+        ("[[objects]]\nkind = \"ground\"\nmaterial = { kind = \"dielectric\" }\n".into(), 4, "needs a closed shape"),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"diffuse\", albedo = 1.5 }}\n"), 6, "0 to 1"),
     ] {
         let message = parse(&format!("majorant = 2\n{text}"), "scene.toml").unwrap_err().to_string();

@@ -5,7 +5,7 @@
 //! or estimator is covered automatically.
 
 use super::array::Target;
-use super::scene::{Density, Known, Place};
+use super::scene::{Boundary, Density, Known, Place};
 use majorant_core::estimator::{self, Axis, Entry, REGISTRY};
 use majorant_core::math::Sampler;
 use majorant_core::scene::SceneDoc;
@@ -15,6 +15,10 @@ use std::sync::{LazyLock, Mutex};
 
 /// Axis of the density, which is not a key of the table: a uniform density and three grids.
 pub const DENSITY: &str = "density";
+
+/// Axis of the boundary of the medium, which is not a key of the estimate: its own box, or an object of the same
+/// extent.
+pub const BOUNDARY: &str = "boundary";
 
 /// Axis of the number of media, which is not a key of the table: the medium as a whole, or as the sum of two.
 pub const MEDIA: &str = "media";
@@ -114,6 +118,8 @@ pub static AXES: LazyLock<Vec<Values>> = LazyLock::new(|| {
     axes.push(Values { key: DENSITY, axis: None, values: densities });
     let media = ["one", "two"].map(written).to_vec();
     axes.push(Values { key: MEDIA, axis: None, values: media });
+    let boundaries = Boundary::ALL.map(|boundary| written(boundary.name())).to_vec();
+    axes.push(Values { key: BOUNDARY, axis: None, values: boundaries });
     axes
 });
 
@@ -263,6 +269,7 @@ impl Row {
             percent: self.percent.unwrap_or(thin),
             size: self.size,
             two: self.value(MEDIA) == "two",
+            boundary: Boundary::ALL.into_iter().find(|b| b.name() == self.value(BOUNDARY)).unwrap(),
         }
     }
 
@@ -278,12 +285,13 @@ impl Row {
             .or_insert_with(|| toml::Value::try_from(place.document()).unwrap())
             .clone();
         let mut parsed = PARSED.lock().unwrap();
-        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| ![DENSITY, MEDIA].contains(&axis.key)) {
+        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| ![DENSITY, MEDIA, BOUNDARY].contains(&axis.key)) {
             let text = &axis.values[self.values[a]];
             let value = parsed.entry(text).or_insert_with(|| {
                 toml::from_str::<toml::Table>(&format!("v = {text}")).unwrap().remove("v").unwrap()
             });
             let (section, path) = axis.key.split_once('.').unwrap();
+            let section = if section == "medium" { "media" } else { section };
             match &mut tree[section] {
                 // All media have the same settings.
                 toml::Value::Array(media) => media.iter_mut().for_each(|medium| put(medium, path, value)),

@@ -60,6 +60,45 @@ impl Density {
     }
 }
 
+/// Boundary of the medium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Boundary {
+    Own,
+    Box,
+    Mesh,
+}
+
+impl Boundary {
+    pub const ALL: [Self; 3] = [Self::Own, Self::Box, Self::Mesh];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Own => "own box",
+            Self::Box => "box",
+            Self::Mesh => "mesh",
+        }
+    }
+
+    /// Object of this extent, and the region of the medium.
+    fn toml(self, extent: [f64; 3]) -> (String, &'static str) {
+        let shape = match self {
+            Self::Own => return (String::new(), "grid"),
+            Self::Box => format!("kind = \"box\"\ncenter = [0.0, 0.0, 0.0]\nsize = {extent:?}"),
+            Self::Mesh => {
+                format!("kind = \"mesh\"\nfile = \"cube.obj\"\nplacement = {{ scale = {extent:?} }}")
+            }
+        };
+        let object = format!(
+            "[[objects]]\nname = \"boundary\"\n{shape}\nmaterial = {{ kind = \"interface\" }}"
+        );
+        (object, "boundary")
+    }
+}
+
+/// The unit cube about the origin.
+const CUBE: &str = "v -.5 -.5 -.5\nv .5 -.5 -.5\nv -.5 .5 -.5\nv .5 .5 -.5\nv -.5 -.5 .5\nv .5 -.5 .5\nv -.5 .5 .5\nv .5 .5 .5
+f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     pub known: Known,
@@ -73,6 +112,7 @@ pub struct Place {
     pub size: u32,
     /// Whether the medium is the sum of two.
     pub two: bool,
+    pub boundary: Boundary,
 }
 
 const EXTINCTION_NM: [(f64, f64); 3] = [(430.0, 1.2), (540.0, 0.5), (620.0, 0.9)];
@@ -121,10 +161,12 @@ impl Place {
             Known::Furnace => (1.0, 1.0, false, ""),
             Known::Single => (truth::SKY_RADIANCE, truth::LAMP_RADIANCE, false, "max_depth = 2"),
         };
+        let (object, within) = self.boundary.toml(truth::EXTENT.map(|x| x * size));
         let medium = |name: &str, share: f64, albedo: String| {
             format!(
                 "[[media]]
                 name = \"{name}\"
+                within = \"{within}\"
                 scale = {}
                 extinction = {extinction}
                 albedo = {albedo}
@@ -153,6 +195,7 @@ impl Place {
             width = 2
             height = 2
             {media}
+            {object}
             [[lights]]
             kind = \"environment\"
             scale = {sky:?}
@@ -241,4 +284,5 @@ pub fn files() -> Library {
         .with_volume("constant.npy", npy([n; 3], 1, &vec![1.0; n.pow(3)]))
         .with_volume("rough.npy", npy([n; 3], 1, &truth::rough_values(1)))
         .with_volume("colours.npy", npy([n; 3], 3, &truth::rough_values(3)))
+        .with_volume("cube.obj", CUBE.as_bytes())
 }

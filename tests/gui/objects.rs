@@ -21,7 +21,8 @@ fn a_medium_fills_an_object_and_follows_its_name() {
     click(&mut lab, Role::Button, "+  Add object");
     click(&mut lab, Role::Button, "Sphere");
     assert_eq!(doc(&lab).objects[0].name, "sphere");
-    click(&mut lab, Role::Button, "Object 1 material: Interface");
+    click(&mut lab, Role::ComboBox, "Object 1 material");
+    click(&mut lab, Role::Button, "Interface");
     assert_eq!(doc(&lab).objects[0].material, MaterialDoc::Interface {});
     assert!(lab.query_by_role_and_label(Role::CheckBox, "Object 1 emits").is_none());
 
@@ -50,6 +51,43 @@ fn a_medium_fills_an_object_and_follows_its_name() {
     wait(&mut lab, "rendering its own box", finished);
     undo(&mut lab);
     assert_eq!(doc(&lab).objects.len(), 1);
+}
+
+#[test]
+fn every_material_can_be_chosen_and_rendered() {
+    let (mut lab, _directory) = lab();
+    open(&mut lab, "Objects");
+    click(&mut lab, Role::Button, "+  Add object");
+    click(&mut lab, Role::Button, "Sphere");
+    for (kind, template) in MaterialDoc::templates() {
+        click(&mut lab, Role::ComboBox, "Object 1 material");
+        click(&mut lab, Role::Button, kind);
+        assert_eq!(doc(&lab).objects[0].material, template, "{kind}");
+        wait(&mut lab, kind, finished);
+        match kind {
+            "Conductor" => {
+                click(&mut lab, Role::ComboBox, "Object 1 metal");
+                click(&mut lab, Role::Button, "n and k");
+                wait(&mut lab, "n and k", finished);
+                click(&mut lab, Role::ComboBox, "Object 1 metal");
+                click(&mut lab, Role::Button, "Silver");
+                let silver = |material: &MaterialDoc| {
+                    matches!(material, MaterialDoc::Conductor { preset: Some(id), .. } if id == "silver")
+                };
+                assert!(silver(&doc(&lab).objects[0].material));
+            }
+            "Dielectric" => {
+                click(&mut lab, Role::Button, "Object 1 index: Cauchy");
+                wait(&mut lab, "Cauchy", finished);
+                let priority = lab.get_by_role_and_label(Role::SpinButton, "Object 1 priority");
+                priority.set_value_accesskit(3.0);
+                lab.run_steps(3);
+                assert_eq!(doc(&lab).objects[0].priority, 3);
+            }
+            _ => {}
+        }
+        wait(&mut lab, kind, finished);
+    }
 }
 
 #[test]

@@ -17,6 +17,7 @@ pub mod faults;
 mod light_fields;
 mod lights;
 mod majorant;
+mod material_fields;
 mod media;
 mod object_fields;
 mod objects;

@@ -1,16 +1,14 @@
 //! Editors for the fields of every kind of object.
 
 use super::Cx;
+use super::material_fields::{material_ui, priority_ui, spectrum_ui};
 use super::placement::placement_ui;
 use crate::model::{Command, Purpose};
-use crate::widgets::{
-    SpectrumField, Value, Vector, buffered_text, hint, key, path_field, row, row_of, segmented,
-    spectrum_editor, switch,
-};
+use crate::widgets::{Value, Vector, buffered_text, hint, key, path_field, row_of, switch};
 use egui::Ui;
 use majorant_core::scene::keys::Key;
 use majorant_core::scene::{MaterialDoc, ObjectDoc, ShapeDoc, SurfaceEmissionDoc, Within};
-use majorant_core::spectrum::{Quantity, SpectrumDoc};
+use majorant_core::spectrum::Quantity;
 
 /// Shows the fields of an object.
 pub fn object_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) {
@@ -32,6 +30,9 @@ pub fn object_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) {
     }
     shape_ui(ui, &name, &mut object.shape, &opened.shape, &template.shape);
     material_ui(ui, &name, &mut object.material, &opened.material);
+    if matches!(object.material, MaterialDoc::Dielectric { .. }) {
+        priority_ui(ui, &name, &mut object.priority, opened.priority);
+    }
     if object.material != (MaterialDoc::Interface {}) && !matches!(object.shape, ShapeDoc::Ground { .. }) {
         emission_ui(ui, &name, &mut object.emission, opened.emission.as_ref());
     }
@@ -113,34 +114,6 @@ fn shape_ui(ui: &mut Ui, name: &str, shape: &mut ShapeDoc, opened: &ShapeDoc, te
     }
 }
 
-/// Shows kind and fields of the material.
-fn material_ui(ui: &mut Ui, name: &str, material: &mut MaterialDoc, opened: &MaterialDoc) {
-    let kinds = [
-        (0, "Diffuse", "Reflects light in all directions, on both sides"),
-        (1, "Interface", "Lets light pass unchanged: an index-matched boundary of media"),
-    ];
-    let mut kind = usize::from(*material == MaterialDoc::Interface {});
-    row_of(ui, key("objects.*.material.kind"), |ui, _| {
-        if segmented(ui, &format!("{name} material"), &mut kind, &kinds) {
-            *material = MaterialDoc::templates().swap_remove(kind).1;
-        }
-    });
-    if let MaterialDoc::Diffuse { albedo } = material {
-        let now = albedo.clone();
-        let before = match opened {
-            MaterialDoc::Diffuse { albedo } => albedo,
-            MaterialDoc::Interface {} => &now,
-        };
-        spectrum_ui(
-            ui,
-            &format!("{name} albedo"),
-            key("objects.*.material.albedo"),
-            (albedo, before),
-            Quantity::Coefficient,
-        );
-    }
-}
-
 /// Shows whether the surface emits light, and its radiance.
 fn emission_ui(
     ui: &mut Ui,
@@ -176,20 +149,4 @@ fn emission_ui(
         "to the camera",
         visible.tip,
     );
-}
-
-fn spectrum_ui(
-    ui: &mut Ui,
-    name: &str,
-    key: &'static Key,
-    (spectrum, opened): (&mut SpectrumDoc, &SpectrumDoc),
-    quantity: Quantity,
-) {
-    let text = super::extinction::in_words(spectrum);
-    row(ui, key.label, key.tip, |ui, _| ui.weak(text));
-    let field = SpectrumField { name, key, opened, quantity, majorant: None };
-    let heading = egui::RichText::new(format!("Edit {} by wavelength", key.label.to_lowercase())).small();
-    egui::CollapsingHeader::new(heading)
-        .id_salt(key.path)
-        .show_unindented(ui, |ui| spectrum_editor(ui, &field, spectrum));
 }

@@ -54,6 +54,20 @@ pub(super) const TWO_BOXES_LENGTH: f64 = 0.6 + 0.55;
 /// Length of the axis within the boxes beyond x = −0.2.
 pub(super) const TWO_BOXES_BELOW: f64 = 0.55;
 
+/// An octahedron with the normals of a sphere as an OBJ file: far from those of its faces.
+pub(super) fn smooth_octahedron() -> String {
+    let mut text = String::new();
+    for [x, y, z] in [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]] {
+        text += &format!("v {x} {y} {z}\nvn {x} {y} {z}\n");
+    }
+    let faces = [[1, 3, 5], [5, 3, 2], [2, 3, 6], [6, 3, 1], [5, 4, 1], [2, 4, 5], [6, 4, 2], [1, 4, 6]];
+    for face in faces {
+        let [a, b, c] = face.map(|index| format!("{index}//{index}"));
+        text += &format!("f {a} {b} {c}\n");
+    }
+    text
+}
+
 /// A torus about the y axis as an OBJ file.
 pub(super) fn torus(radius: f64, tube: f64, [around, across]: [usize; 2]) -> String {
     use std::f64::consts::TAU;

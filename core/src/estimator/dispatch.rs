@@ -169,7 +169,7 @@ fn in_grey_medium<E: Estimator>(
 /// The medium of a scene that has only one, if no ray enters it more than once.
 fn only_medium(scene: &Scene) -> Option<(&AnyMedium, &PlacedMedium)> {
     match &*scene.media {
-        [only] if only.placed.region.is_convex() => Some((&only.placed.medium, &only.placed)),
+        [only] if only.placed.is_convex() => Some((&only.placed.medium, &only.placed)),
         _ => None,
     }
 }

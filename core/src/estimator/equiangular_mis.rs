@@ -99,7 +99,7 @@ impl Estimator for EquiangularMis {
                         };
                         radiance += world.record(Technique::Walk, (light.radiance, other), value, trace);
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);
@@ -114,7 +114,8 @@ impl Estimator for EquiangularMis {
             }
             if let Some(aim) = world.aim(&vertex, trace) {
                 let densities = reached.light_densities(world, aim.light, vertex.point(), aim.density);
-                let link = path.connect(&aim.outgoing, densities);
+                let mut link = path.connect(&aim.outgoing, densities);
+                world.adjust_at_boundary(&vertex, &aim.outgoing, &mut link, trace);
                 if let Some(link) = world.arrive(&aim, link, trace) {
                     let (other, value) = (aim.outgoing.density, link.connected(aim.radiance, heuristics));
                     radiance += world.record(Technique::Connection, (aim.radiance, other), value, trace);

@@ -66,7 +66,7 @@ impl Estimator for Independent {
                         let value = path.hero_only(light.radiance);
                         radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);

@@ -105,7 +105,7 @@ impl Estimator for Mitsuba2Volpath {
                         radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
                 }
-                let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                     return radiance;
                 };
                 phi *= albedo;
@@ -120,27 +120,35 @@ impl Estimator for Mitsuba2Volpath {
 
             // A direction drawn towards a light.
             if let Some(aim) = world.aim(&vertex, trace) {
-                let (p_e, p_p) = (aim.density, aim.outgoing.density);
+                let (relative, p_p) = world.by_any(&vertex, &aim.outgoing);
+                let p_e = aim.density;
                 let weight = aim.outgoing.value * p_e / (p_e * p_e + p_p * p_p);
-                let value = aim.radiance * (phi * world.transmittance_to(&aim, trace) * weight);
+                let value = aim.radiance * (phi * relative * world.transmittance_to(&aim, trace) * weight);
                 radiance += world.record(Technique::Connection, (aim.radiance, p_p), value, trace);
             }
 
             // The direction in which the path continues.
-            let outgoing = world.sample_outgoing(&vertex, trace);
-            ray = Ray { origin: vertex.point(), direction: outgoing.direction };
+            let Some((onward, outgoing, relative, connects)) = world.leave_by_any(&vertex, trace) else {
+                return radiance;
+            };
+            ray = onward;
             let end = world.nearest_surface(&ray, false);
             for light in world.arrivals(&ray, &end, false) {
-                let p_e = world.aim_density(&vertex, light.index, &end.light_point(&ray));
+                let p_e = if connects {
+                    world.aim_density(&vertex, light.index, &end.light_point(&ray))
+                } else {
+                    0.0
+                };
                 let p_p = outgoing.density;
                 let weight = outgoing.value * p_p / (p_p * p_p + p_e * p_e);
                 trace.notify(move || Note::LightWalk);
                 trace.start_side_stream(SideStream::LightWalk);
-                let value = light.radiance * (phi * world.transmittance(&ray, end.t(), trace) * weight);
+                let value =
+                    light.radiance * (phi * relative * world.transmittance(&ray, end.t(), trace) * weight);
                 radiance += world.record(Technique::Walk, (light.radiance, p_e), value, trace);
                 trace.notify(move || Note::LightWalkEnds);
             }
-            phi *= outgoing.value / outgoing.density;
+            phi *= relative * (outgoing.value / outgoing.density);
             trace.notify(move || Note::Weights(WeightRecord::throughput(phi)));
 
             if vertices >= world.settings.first_roulette() {

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The walk itself collects light only before its first real vertex, where no connection can be made;
-//! afterwards lights that it reaches are ignored, as connections account for them. Good for small lights
+//! afterwards lights that it reaches are ignored, as connections account for them, except straight after a
+//! smooth surface, from which no connection can be made. Good for small lights
 //! (the report's figure 3, lower row), poor for sharp phase functions. Miller, Georgiev and Jarosz 2019,
 //! section 5.2.
 //!
@@ -61,6 +62,7 @@ impl Estimator for Nee {
         let mut radiance = C::Radiance::BLACK;
         let mut path = PathWeights::CAMERA;
         let mut vertices = 0;
+        let mut connected = false;
         loop {
             // Fly to the next real event; every null collision updates the weights.
             let surface = world.nearest_surface(&ray, vertices == 0);
@@ -76,14 +78,14 @@ impl Estimator for Nee {
                 FlightEnd::Absorption => return radiance,
                 FlightEnd::Scattering(at) => world.scattering_vertex(at, &ray),
                 FlightEnd::Exit => {
-                    if vertices == 0 {
-                        // No real vertex yet: only the walk can reach this light.
-                        for light in world.arrivals(&ray, &surface, true) {
+                    if !connected {
+                        // No real vertex yet, or one on a smooth surface: only the walk can reach this light.
+                        for light in world.arrivals(&ray, &surface, vertices == 0) {
                             let value = path.unidirectional(light.radiance, heuristics);
                             radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                         }
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);
@@ -107,6 +109,7 @@ impl Estimator for Nee {
             if !world.survives_roulette(vertices, &mut path, trace) {
                 return radiance;
             }
+            connected = world.connects(&vertex);
             ray = world.sample_direction(&vertex, &mut path, trace);
         }
     }

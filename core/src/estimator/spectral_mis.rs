@@ -69,7 +69,7 @@ impl Estimator for SpectralMis {
                         let value = path.unidirectional(light.radiance, heuristics);
                         radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);

@@ -81,7 +81,7 @@ impl Estimator for SpectralTracking {
                         let value = path.as_drawn(light.radiance);
                         radiance += world.record(Technique::Walk, (light.radiance, 0.0), value, trace);
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);
@@ -95,7 +95,10 @@ impl Estimator for SpectralTracking {
             {
                 return radiance;
             }
-            ray = world.sample_direction(&vertex, &mut path, trace);
+            let Some(onward) = world.sample_direction_by_any(&vertex, &mut path, trace) else {
+                return radiance;
+            };
+            ray = onward;
         }
     }
 }

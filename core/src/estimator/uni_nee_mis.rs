@@ -115,7 +115,7 @@ impl<B: WeightForm> Estimator for UniNeeMis<B> {
                     if last.is_none() || world.settings.light_walk == LightWalk::Fused {
                         world.add_light_on_ray(last.as_ref(), &ray, &surface, &path, &mut radiance, trace);
                     }
-                    let Some((vertex, albedo)) = world.diffuse_vertex(&ray, &surface, trace) else {
+                    let Some((vertex, albedo)) = world.surface_vertex(&ray, &surface, trace) else {
                         return radiance;
                     };
                     path.reflect(albedo);

@@ -90,6 +90,8 @@ struct LedgerBuilder {
     link: Option<PathDensities>,
     walk: Option<PathDensities>,
     equiangular: Option<PathDensities>,
+    /// Factors of f and p_uni of the connection that starts next.
+    adjusted: Option<(Lanes, Lanes)>,
     /// Path weights at the start of the current ray.
     ray: PathDensities,
     carried: Carried,
@@ -111,6 +113,7 @@ impl Ledger {
             link: None,
             walk: None,
             equiangular: None,
+            adjusted: None,
             ray: PathDensities::CAMERA,
             carried: Carried::Grey,
             balanced: recording.settings.path.heuristics == Heuristics::default(),
@@ -252,9 +255,19 @@ impl LedgerBuilder {
                 self.event(i, Step::Direction(value, density), Some(ray.origin), &u.to_array());
                 self.begin_ray();
             }
+            Note::Boundary { ray, u, value, density, is_specular } => {
+                self.path.leave(&value, &density, !is_specular);
+                self.event(i, Step::Direction(value[0], density[0]), Some(ray.origin), &u.to_array());
+                self.begin_ray();
+            }
+            Note::Adjusted { value, density } => self.adjusted = Some((value, density)),
             Note::Connect { ray, value, walk_density, light_density, .. } => {
                 let from = self.equiangular.unwrap_or(self.path);
-                self.link = Some(from.connected(value, walk_density, light_density));
+                let mut link = from.connected(value, walk_density, light_density);
+                if let Some((value, density)) = self.adjusted.take() {
+                    link.adjust(&value, &density);
+                }
+                self.link = Some(link);
                 let step = Step::Connect(value, walk_density, light_density);
                 self.event(i, step, Some(ray.origin), &[]);
             }

@@ -79,6 +79,21 @@ impl PathDensities {
         times(&mut self.uni, &[density; 4]);
     }
 
+    /// Updates the densities for leaving a surface whose lobes depend on the component.
+    pub fn leave(&mut self, value: &Lanes, density: &Lanes, connects: bool) {
+        self.nee = self.uni;
+        if !connects {
+            times(&mut self.nee, &[0.0; 4]);
+        }
+        self.adjust(value, density);
+    }
+
+    /// Multiplies f and p_uni.
+    pub fn adjust(&mut self, value: &Lanes, density: &Lanes) {
+        times(&mut self.f, value);
+        times(&mut self.uni, density);
+    }
+
     pub fn connected(&self, value: f32, walk_density: f32, light_density: f32) -> Self {
         let mut link = *self;
         link.nee = self.uni;

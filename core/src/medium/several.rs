@@ -45,7 +45,7 @@ impl<'m, const N: usize> LocalMedia<N> for Several<'m, N> {
         let mut crossed: SmallVec<[Crossed<'_, 'm, N>; 2]> = SmallVec::new();
         let mut entry = f32::INFINITY;
         for (index, part) in self.parts.iter().enumerate() {
-            part.placed.region.stretches(ray, t_max, |t0, inside| {
+            part.placed.stretches(ray, t_max, |t0, inside| {
                 entry = entry.min(t0);
                 let segments = part.medium.segments(&inside);
                 crossed.push(Crossed { part, index: index as u32, t0, inside, segments, segment: None });

@@ -1,6 +1,6 @@
 //! Frozen scene: the immutable form in which paths are traced.
 
-use super::Camera;
+use super::{Bodies, Camera, Crossing};
 use crate::light::{Light, LightChoice, LightLobes, LightPoint};
 use crate::material::Material;
 use crate::math::Ray;
@@ -24,6 +24,8 @@ pub struct Scene {
     pub is_unbounded: bool,
     /// Surfaces of lights that have a shape, and of objects.
     pub surfaces: Vec<Surface>,
+    /// Transparent bodies.
+    pub bodies: Bodies,
     /// All lights.
     pub lights: Vec<Light>,
     /// Selection probabilities of lights for connections.
@@ -128,25 +130,25 @@ pub struct MediumInfo {
 
 /// Nearest surface along a ray, if any.
 #[derive(Clone, Copy, Debug)]
-pub struct NearestSurface<'a>(Option<(SurfaceHit, &'a Surface)>);
+pub struct NearestSurface<'a>(Option<(SurfaceHit, &'a Surface, u32)>);
 
 impl<'a> NearestSurface<'a> {
     /// Distance along the ray; infinite without a hit.
     #[must_use]
     pub fn t(&self) -> f32 {
-        self.0.map_or(f32::INFINITY, |(hit, _)| hit.t)
+        self.0.map_or(f32::INFINITY, |(hit, ..)| hit.t)
     }
 
     /// Unit normal; zero without a hit.
     #[must_use]
     pub fn normal(&self) -> Vec3 {
-        self.0.map_or(Vec3::ZERO, |(hit, _)| hit.normal)
+        self.0.map_or(Vec3::ZERO, |(hit, ..)| hit.normal)
     }
 
     /// The end of the ray as a point of a light.
     #[must_use]
     pub fn light_point(&self, ray: &Ray) -> LightPoint {
-        let triangle = self.0.map_or(0, |(hit, _)| hit.triangle);
+        let triangle = self.0.map_or(0, |(hit, ..)| hit.triangle);
         LightPoint { direction: ray.direction, distance: self.t(), triangle }
     }
 
@@ -162,6 +164,18 @@ impl<'a> NearestSurface<'a> {
         self.0?.1.light
     }
 
+    /// Index of the surface in the scene; 0 without a hit.
+    #[must_use]
+    pub fn index(&self) -> u32 {
+        self.0.map_or(0, |(_, _, index)| index)
+    }
+
+    /// Transparent body that the surface bounds, if any.
+    #[must_use]
+    pub fn body(&self) -> Option<u32> {
+        self.0?.1.body
+    }
+
     /// Material of the surface; `None` without a hit, and where all light is absorbed.
     #[must_use]
     pub fn material(&self) -> Option<&'a Material> {
@@ -171,7 +185,7 @@ impl<'a> NearestSurface<'a> {
     /// The point that the ray meets; `None` without a hit.
     #[must_use]
     pub fn point(&self, ray: &Ray) -> Option<SurfacePoint> {
-        self.0.map(|(hit, surface)| surface.shape.point(ray, &hit))
+        self.0.map(|(hit, surface, _)| surface.shape.point(ray, &hit))
     }
 }
 
@@ -194,7 +208,7 @@ impl Scene {
     #[must_use]
     pub fn is_uniform(&self) -> bool {
         matches!(&*self.media, [only] if matches!(only.placed.medium, AnyMedium::Homogeneous(_))
-            && only.placed.region.is_convex())
+            && only.placed.is_convex())
     }
 
     /// Returns whether the extinction of a medium may exceed its majorant.
@@ -234,6 +248,10 @@ impl Scene {
     /// Returns whether any surface intersects the ray at `0 < t < t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
+        if self.bodies.0.len() > 1 {
+            // Faces of bodies inside others may be no boundary.
+            return !self.nearest_surface(ray, t_max, false).is_none();
+        }
         self.surfaces.iter().any(|surface| surface.shape.occludes(ray, t_max))
     }
 
@@ -241,17 +259,51 @@ impl Scene {
     /// hidden from the camera.
     #[must_use]
     pub fn nearest_surface(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
-        let mut nearest: Option<(SurfaceHit, &Surface)> = None;
-        for surface in &self.surfaces {
+        let nearest = self.nearest_face(ray, t_max, from_camera);
+        if self.bodies.0.len() < 2 {
+            return nearest;
+        }
+        // Skips faces behind which the same body is found as in front of them.
+        let mut nearest = nearest;
+        while let Some(passed) = self.passed_face(ray, &nearest) {
+            let onward = Ray { origin: ray.at(passed), direction: ray.direction };
+            nearest = self.nearest_face(&onward, t_max - passed, from_camera);
+            if let Some((hit, ..)) = &mut nearest.0 {
+                hit.t += passed;
+            }
+        }
+        nearest
+    }
+
+    /// Parameter just behind a face that is no boundary; `None` at any other end of a ray.
+    fn passed_face(&self, ray: &Ray, end: &NearestSurface<'_>) -> Option<f32> {
+        let crossing = self.crossing(ray, end)?;
+        let error = end.point(ray)?.error;
+        let cosine = ray.direction.dot(end.normal()).abs().max(1e-3);
+        (crossing.before == crossing.after).then(|| end.t() + 4.0 * error / cosine)
+    }
+
+    /// The bodies on both sides of the boundary of a body; `None` at any other end of a ray.
+    #[must_use]
+    pub fn crossing(&self, ray: &Ray, end: &NearestSurface<'_>) -> Option<Crossing> {
+        let (body, at) = (end.body()?, end.point(ray)?);
+        let enters = ray.direction.dot(end.normal()) < 0.0;
+        let side = if enters { end.normal() } else { -end.normal() };
+        Some(self.bodies.crossing(body, at.position, side, at.error, enters))
+    }
+
+    fn nearest_face(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
+        let mut nearest: Option<(SurfaceHit, &Surface, u32)> = None;
+        for (index, surface) in (0..).zip(&self.surfaces) {
             if from_camera
                 && let Some(index) = surface.light
                 && self.lights.get(index).is_some_and(|light| !light.visible)
             {
                 continue;
             }
-            let limit = nearest.map_or(t_max, |(hit, _)| hit.t);
+            let limit = nearest.map_or(t_max, |(hit, ..)| hit.t);
             if let Some(hit) = surface.shape.intersect(ray, limit) {
-                nearest = Some((hit, surface));
+                nearest = Some((hit, surface, index));
             }
         }
         NearestSurface(nearest)

@@ -1,5 +1,6 @@
 //! Scenes: the editable document, its validation, and the frozen form that paths are traced in.
 
+mod bodies;
 mod build;
 mod camera;
 pub mod doc;
@@ -8,6 +9,7 @@ pub mod keys;
 mod placement;
 mod validate;
 
+pub use bodies::{Bodies, Body, Crossing};
 pub use build::{PlacedGrid, ResourceError, Resources, build};
 pub use camera::Camera;
 pub use doc::*;

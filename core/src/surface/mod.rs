@@ -128,4 +128,6 @@ pub struct Surface {
     pub light: Option<usize>,
     /// How it scatters light; `None`: it absorbs all light.
     pub material: Option<Material>,
+    /// Index of the transparent body that it bounds.
+    pub body: Option<u32>,
 }

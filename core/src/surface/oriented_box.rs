@@ -60,6 +60,21 @@ impl OrientedBox {
         (t0 < t1).then_some([t0, t1])
     }
 
+    /// Returns whether a point is inside.
+    #[must_use]
+    pub fn contains(&self, point: Vec3) -> bool {
+        let local = self.world_from_box.inverse() * (point - self.center);
+        local.abs().cmplt(self.half_size).all()
+    }
+
+    /// Corners, centres of edges and centres of faces.
+    #[must_use]
+    pub fn surface_points(&self) -> Vec<Vec3> {
+        let at = |i: u8| f32::from(i % 3) - 1.0;
+        let points = (0..27).filter(|i| *i != 13).map(|i| Vec3::new(at(i), at(i / 3), at(i / 9)));
+        points.map(|p| self.center + self.world_from_box * (p * self.half_size)).collect()
+    }
+
     /// Axis-aligned bounds in world space.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {

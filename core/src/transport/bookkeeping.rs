@@ -42,6 +42,14 @@ pub trait WalkWeights<const N: usize>: Copy {
     /// sampled a light here. The light's density is multiplied into p_nee in [`Weights::combined`].
     fn choose_direction(&mut self, outgoing: &DirectionSample);
 
+    /// Updates the weights for leaving a surface whose lobes depend on the component: f_j is multiplied by the
+    /// value, p_uni,i by the density. p_nee is multiplied by neither, and is zero if no connection can have
+    /// the direction.
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool);
+
+    /// Multiplies f and p_uni of a connection, relative to the direction with which it was made.
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>);
+
     /// Value of a path that ends at a collision where the medium emits. Every tentative collision is such an
     /// end, so its density is p_uni,i μ̄_i, and with the balance heuristic the value is
     /// f_j μa_j / mean (p_uni,i μ̄_i).

@@ -66,7 +66,7 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
-        let mut weights = path.connect(&aim.outgoing, aim.density);
+        let mut weights = self.set_out(vertex, path, &aim, trace);
         trace.notify(move || aim.note());
         let sets_out = weights;
         trace.notify(move || Note::Weights(sets_out.weight_record()));
@@ -86,9 +86,23 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         trace: &mut Trace<'_>,
     ) -> Option<Connection<C::Radiance, W>> {
         let aim = self.aim(vertex, trace)?;
-        let weights = path.connect(&aim.outgoing, aim.density);
+        let weights = self.set_out(vertex, path, &aim, trace);
         let weights = self.arrive(&aim, weights, trace)?;
         Some(Connection { weights, radiance: aim.radiance, outgoing: aim.outgoing })
+    }
+
+    /// Weights of a connection as it leaves its vertex.
+    #[inline]
+    fn set_out<W: Weights<N>>(
+        &self,
+        vertex: &Vertex,
+        path: &W,
+        aim: &Aim<C::Radiance>,
+        trace: &mut Trace<'_>,
+    ) -> W {
+        let mut weights = path.connect(&aim.outgoing, aim.density);
+        self.adjust_at_boundary(vertex, &aim.outgoing, &mut weights, trace);
+        weights
     }
 
     /// Traverses the connection to a light by [`Self::pass_by_ratio`].
@@ -165,8 +179,12 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
             None => light.sample(vertex.point(), u)?,
         };
         let at = sample.point;
-        let outgoing = self.directions(vertex).towards(vertex, at.direction);
-        let ray = Ray { origin: vertex.point(), direction: at.direction };
+        let (outgoing, ray) = if vertex.boundary().is_some() {
+            (self.boundary_towards(vertex, at.direction)?.outgoing, vertex.ray(at.direction))
+        } else {
+            let ray = Ray { origin: vertex.point(), direction: at.direction };
+            (self.directions(vertex).towards(vertex, at.direction), ray)
+        };
         // The occlusion test ends just short of the light; the medium extends all the way.
         let extinguished = self.scene.is_unbounded && at.distance == f32::INFINITY;
         if outgoing.value <= 0.0 || extinguished || self.scene.occluded(&ray, at.distance * (1.0 - 1e-4)) {

@@ -4,6 +4,7 @@
 //! Each of these is defined here once; an estimator's file combines them and contains the whole path loop.
 
 mod bookkeeping;
+mod boundary;
 mod cancel_token;
 mod connection;
 mod direction;
@@ -24,6 +25,7 @@ mod weights_pairwise;
 mod world;
 
 pub use bookkeeping::{ApartF32, ApartF64, Faulty, Pairwise, Rescaled, WalkWeights, WeightForm, Weights};
+pub use boundary::Towards;
 pub use cancel_token::CancelToken;
 pub use connection::{Aim, Connection};
 pub use direction::{DirectionSample, DirectionSampler, Guide};
@@ -33,7 +35,7 @@ pub use event::{Collision, Event, EventRule};
 pub use event_densities::EventDensities;
 pub use fly_to_event::{FlightEnd, hero_event};
 pub use observer::{CollisionRecord, Note, Observer, PathContext, Technique, WeightRecord};
-pub use vertex::{ScatteringPoint, Vertex};
+pub use vertex::{Boundary, ScatteringPoint, Vertex};
 pub use walk::{Part, Place, Walk};
 pub use weights::PathWeights;
 pub use weights_apart::WeightsApart;

@@ -157,6 +157,26 @@ pub enum Note {
         /// Density of the direction, per steradian.
         density: f32,
     },
+    /// The path leaves a surface whose lobes depend on the component.
+    Boundary {
+        /// Ray from the vertex.
+        ray: Ray,
+        /// Random numbers.
+        u: Vec2,
+        /// Value of the lobe at every component.
+        value: Lanes,
+        /// Density of the direction at every component.
+        density: Lanes,
+        /// Whether the lobe is smooth, so that no connection has the direction.
+        is_specular: bool,
+    },
+    /// Values and densities of a connection at every component, relative to those with which it started.
+    Adjusted {
+        /// Factor of f.
+        value: Lanes,
+        /// Factor of p_uni.
+        density: Lanes,
+    },
     /// A connection starts at the last vertex, or at a vertex drawn by equiangular sampling.
     Connect {
         /// Ray from the vertex.

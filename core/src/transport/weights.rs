@@ -94,6 +94,18 @@ impl<const N: usize> WalkWeights<N> for PathWeights<N> {
         self.nee = self.uni * drawn;
     }
 
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool) {
+        let drawn = 1.0 / density.hero();
+        self.nee = if connects { self.uni * drawn } else { Sampled::ZERO };
+        self.contribution *= value * drawn;
+        self.uni *= density * drawn;
+    }
+
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>) {
+        self.contribution *= value;
+        self.uni *= density;
+    }
+
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
         let scale = 1.0 / c.tentative.hero();
         let mut now = self.settled();

@@ -137,6 +137,19 @@ impl<T: Number, const N: usize> WalkWeights<N> for WeightsApart<T, N> {
         multiply(&mut self.uni, Sampled::splat(outgoing.density));
     }
 
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool) {
+        self.nee = self.uni;
+        if !connects {
+            multiply(&mut self.nee, Sampled::ZERO);
+        }
+        self.adjust(value, density);
+    }
+
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>) {
+        self.contributes(value);
+        multiply(&mut self.uni, density);
+    }
+
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
         let mut end = *self;
         end.contributes(c.coefficients.absorption);

@@ -90,6 +90,20 @@ impl<const N: usize> WalkWeights<N> for EquiangularWeights<N> {
         self.ahead = self.uni;
     }
 
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool) {
+        let drawn = 1.0 / density.hero();
+        self.nee = if connects { self.uni * drawn } else { Sampled::ZERO };
+        self.contribution *= value * drawn;
+        self.uni *= density * drawn;
+        self.eq = Sampled::ZERO;
+        self.ahead = self.uni;
+    }
+
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>) {
+        self.contribution *= value;
+        self.uni *= density;
+    }
+
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
         let scale = 1.0 / c.tentative.hero();
         let contribution = self.contribution * c.coefficients.absorption * scale;

@@ -92,6 +92,15 @@ impl<const N: usize> WalkWeights<N> for FaultyWeights<N> {
         self.nulls = 0;
     }
 
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool) {
+        self.right.leave(value, density, connects);
+        self.nulls = 0;
+    }
+
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>) {
+        self.right.adjust(value, density);
+    }
+
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, heuristics: Heuristics) -> R {
         self.right.emitted(radiance, c, heuristics)
     }

@@ -76,6 +76,21 @@ impl<const N: usize> WalkWeights<N> for WeightsPairwise<N> {
         multiply(&mut self.uni, Sampled::splat(outgoing.density), Sampled::splat(outgoing.value));
     }
 
+    fn leave(&mut self, value: Sampled<N>, density: Sampled<N>, connects: bool) {
+        if connects {
+            self.nee = self.uni;
+            multiply(&mut self.nee, Sampled::ONE, value);
+        } else {
+            self.nee = [Sampled::ZERO; N];
+        }
+        multiply(&mut self.uni, density, value);
+    }
+
+    fn adjust(&mut self, value: Sampled<N>, density: Sampled<N>) {
+        multiply(&mut self.uni, density, value);
+        multiply(&mut self.nee, Sampled::ONE, value);
+    }
+
     fn emitted<R: Radiance<N>>(&self, radiance: R, c: &Collision<N>, _: Heuristics) -> R {
         let mut end = self.uni;
         multiply(&mut end, c.tentative, c.coefficients.absorption);

@@ -1,15 +1,15 @@
 //! A scene evaluated at the components of one path: the interface of an estimator to the scene.
 
 use super::{
-    Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext, ScatteringPoint,
-    Technique, Vertex, Walk, WalkWeights,
+    Boundary, Collision, DirectionSample, DirectionSampler, EventRule, Guide, Note, PathContext,
+    ScatteringPoint, Technique, Vertex, Walk, WalkWeights,
 };
 use crate::light::{Emitter, LobeParts};
 use crate::material::Material;
 use crate::math::{Ray, Sampler, SideStream};
 use crate::medium::LocalMedia;
 use crate::scene::{
-    Absorption, Bookkeeping, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
+    Absorption, Bookkeeping, Crossing, DirectionSampling, DistanceSampling, Fault, Heuristics, LightSampling,
     LightSelection, LightWalk, NearestSurface, Scene, Tracking,
 };
 use crate::spectrum::{Components, Radiance, Sampled};
@@ -211,24 +211,32 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         })
     }
 
-    /// The diffuse vertex at which a ray ends, with its albedo; `None` at a surface that reflects nothing, and
-    /// if the ray leaves the scene.
+    /// The vertex at which a ray ends on a surface, and the albedo that the path is multiplied by there; `None`
+    /// at a surface that absorbs all light, and if the ray leaves the scene. Surfaces that are not diffuse have
+    /// an albedo of one; their weights depend on the direction in which the path leaves.
     #[must_use]
-    pub fn diffuse_vertex(
+    pub fn surface_vertex(
         &self,
         ray: &Ray,
         end: &NearestSurface,
         trace: &mut Trace<'_>,
     ) -> Option<(Vertex, Sampled<N>)> {
-        let Material::Diffuse(diffuse) = end.material()?;
+        let material = end.material()?;
         let at = end.point(ray)?;
         let side = -ray.direction.dot(end.normal()).signum();
         let (outward, normal) = (end.normal() * side, at.shading_normal * side);
-        let albedo = self.components.evaluate(&diffuse.albedo);
+        let (albedo, boundary) = match material {
+            Material::Diffuse(diffuse) => (self.components.evaluate(&diffuse.albedo), None),
+            _ => {
+                let crossing = self.scene.crossing(ray, end).unwrap_or(Crossing::NONE);
+                (Sampled::ONE, Some(Boundary { surface: end.index(), crossing, lift: at.error }))
+            }
+        };
         let point = at.position;
         trace.notify(move || Note::Surface { point, albedo: albedo.lanes() });
         // The vertex is lifted off the surface by the error of its position.
-        Some((Vertex::Surface { point: point + outward * at.error, normal, outward }, albedo))
+        let point = point + outward * at.error;
+        Some((Vertex::Surface { point, omega_in: ray.direction, normal, outward, boundary }, albedo))
     }
 
     /// A scattering vertex in a medium, on this ray.
@@ -270,6 +278,9 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         weights: &mut impl WalkWeights<N>,
         trace: &mut Trace<'_>,
     ) -> Ray {
+        if let Some(boundary) = vertex.boundary() {
+            return self.leave_boundary(vertex, boundary, weights, trace);
+        }
         let outgoing = self.sample_outgoing(vertex, trace);
         weights.choose_direction(&outgoing);
         Ray { origin: vertex.point(), direction: outgoing.direction }

@@ -8,6 +8,7 @@ mod furnace;
 mod half_space;
 mod interpolation;
 mod lights;
+mod materials;
 mod media;
 mod oracle;
 mod shapes;
@@ -30,6 +31,7 @@ pub static FAMILIES: &[Family] = &[
     lights::FAMILY,
     media::FAMILY,
     shapes::FAMILY,
+    materials::FAMILY,
     half_space::FAMILY,
     agreement::FAMILY,
     oracle::FAMILY,

@@ -47,6 +47,7 @@ fn meshes() -> Library {
         .with_volume("cube.obj", obj(fixture::obj_box(DVec3::splat(-0.5), DVec3::splat(0.5))))
         .with_volume("two.obj", obj(fixture::two_boxes()))
         .with_volume("ring.obj", obj(fixture::torus(1.0, 0.45, [24, 12])))
+        .with_volume("smooth.obj", obj(fixture::smooth_octahedron()))
 }
 
 const BALL: [f64; 3] = [0.2, 1.0, 0.5];
@@ -518,6 +519,11 @@ fn agreement() -> Result<Vec<Case>, CheckError> {
         file = \"cube.obj\"
         placement = {{ scale = [0.15, 0.3, 0.15], rotate_deg = [0.0, 30.0, 20.0], translate = [0.1, 0.0, -0.1] }}
         emission = {{ radiance = {{ rgb = [6.0, 4.0, 2.0] }} }}
+        [[objects]]
+        kind = \"mesh\"
+        file = \"smooth.obj\"
+        placement = {{ scale = [0.25, 0.35, 0.25], rotate_deg = [0.0, 20.0, 0.0], translate = [0.45, -0.1, 0.2] }}
+        material = {{ kind = \"diffuse\", albedo = 0.9 }}
         [[objects]]
         kind = \"disk\"
         center = [0.0, -0.5, 0.0]

@@ -3,7 +3,9 @@
 mod medium;
 mod object;
 
-use super::{Camera, GridRef, LightDoc, ObjectDoc, Scene, SceneDoc, SceneError, SceneInfo, Within, validate};
+use super::{
+    Bodies, Camera, GridRef, LightDoc, ObjectDoc, Scene, SceneDoc, SceneError, SceneInfo, Within, validate,
+};
 use crate::light::{
     Environment, EnvironmentMap, Light, LightChoice, LightKind, LightLobes, Panorama, RectangleLight,
     SphereLight, Sun,
@@ -94,12 +96,19 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         info.objects.push(built.info);
         objects.push(built.shape);
     }
+    let bodies = object::build_bodies(doc, &objects)?;
     let mut media = Vec::new();
     for (index, medium) in doc.media.iter().enumerate() {
         let (built, described) = if medium.enabled {
             let path = doc.medium_path(index);
             let solid = solid_of(doc, &medium.within, &objects, &path)?;
-            let (built, info) = medium::build(medium, (index, &path), solid, resources, &mut notices)?;
+            let within = match &medium.within {
+                Within::Object(name) => doc.object_named(name).map(|(index, _)| index),
+                Within::Grid | Within::Everywhere => None,
+            };
+            let displaced_by = object::displacing(within, solid.as_deref(), &bodies);
+            let (mut built, info) = medium::build(medium, (index, &path), solid, resources, &mut notices)?;
+            built.placed.displaced_by = displaced_by;
             (Some(built), Some(info))
         } else {
             (None, None)
@@ -124,7 +133,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
             _ => None,
         };
         let light_index = Some(lights.len());
-        surfaces.extend(shape.map(|shape| Surface { shape, light: light_index, material: None }));
+        surfaces.extend(shape.map(|shape| Surface { shape, light: light_index, material: None, body: None }));
         lights.push(Light { kind: built, visible: light.visible() });
     }
     let with_surface = |(_, (object, _)): &(usize, (&ObjectDoc, Shape))| object.has_surface();
@@ -135,7 +144,8 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
             (shape, light) = (emitting, Some(lights.len()));
             lights.push(Light { kind, visible: emission.visible });
         }
-        surfaces.push(Surface { shape, light, material: object::build_material(&object.material) });
+        let body = bodies.iter().position(|(owner, _)| *owner == index).map(|body| body as u32);
+        surfaces.push(Surface { shape, light, material: object::build_material(&object.material), body });
     }
     if lights.is_empty() && media.iter().all(|medium| medium.emission.is_none()) {
         notices.push("No light: the image is black. Add a light.".into());
@@ -166,6 +176,7 @@ pub fn build(doc: &SceneDoc, resources: &mut dyn Resources) -> Result<Scene, Sce
         media,
         is_unbounded,
         surfaces,
+        bodies: Bodies(bodies.into_iter().map(|(_, body)| body).collect()),
         lights,
         info,
         notices,

@@ -2,11 +2,14 @@
 
 use super::Resources;
 use crate::light::{DiskLight, LightKind, MeshLight, RectangleLight, SphereLight};
-use crate::material::{Diffuse, Material};
-use crate::scene::{
-    MaterialDoc, ObjectDoc, ObjectInfo, Problem, SceneError, ShapeDoc, SurfaceEmissionDoc, placement,
+use crate::material::{
+    CONDUCTORS, Conductor, Dielectric, Diffuse, Ggx, Material, Mirror, SMOOTH, ThinDielectric,
 };
-use crate::spectrum::{Quantity, Spectrum};
+use crate::scene::{
+    Body, MaterialDoc, ObjectDoc, ObjectInfo, Problem, SceneDoc, SceneError, ShapeDoc, SurfaceEmissionDoc,
+    placement,
+};
+use crate::spectrum::{Outside, Quantity, Spectrum, SpectrumDoc};
 use crate::surface::{Disk, Mesh, MeshInstance, OrientedBox, Plane, Rectangle, Shape, Solid, Sphere};
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
@@ -73,12 +76,86 @@ fn placed(mesh: Arc<Mesh>, world_from_object: &DAffine3, index: usize) -> Result
 
 /// Material of the surface; `None` for an index-matched boundary.
 pub(super) fn build_material(doc: &MaterialDoc) -> Option<Material> {
-    match doc {
-        MaterialDoc::Diffuse { albedo } => {
-            Some(Material::Diffuse(Diffuse { albedo: super::coefficient(albedo) }))
+    let coefficient = super::coefficient;
+    let ggx = |alpha: f32| (alpha >= SMOOTH).then_some(Ggx { alpha });
+    Some(match doc {
+        MaterialDoc::Diffuse { albedo } => Material::Diffuse(Diffuse { albedo: coefficient(albedo) }),
+        MaterialDoc::Mirror { reflectance } => {
+            Material::Mirror(Mirror { reflectance: coefficient(reflectance) })
         }
-        MaterialDoc::Interface {} => None,
+        MaterialDoc::Conductor { preset, eta, k, roughness } => {
+            let metal = CONDUCTORS.iter().find(|metal| Some(metal.id) == preset.as_deref());
+            let named = |points: &str| {
+                let points = SpectrumDoc::parse_points(points).unwrap_or_default();
+                Spectrum::new(&SpectrumDoc::Points { points, outside: Outside::Hold }, Quantity::Coefficient)
+            };
+            let (n, absorption) = match (metal, eta, k) {
+                (Some(metal), ..) => (named(metal.eta), named(metal.k)),
+                (None, Some(eta), Some(k)) => (coefficient(eta), coefficient(k)),
+                _ => (Spectrum::constant(1.0), Spectrum::constant(0.0)),
+            };
+            Material::Conductor(Conductor { eta: n, k: absorption, ggx: ggx(*roughness) })
+        }
+        MaterialDoc::Dielectric { ior, roughness } => {
+            Material::Dielectric(Dielectric { ior: coefficient(&ior.spectrum()), ggx: ggx(*roughness) })
+        }
+        MaterialDoc::ThinDielectric { ior } => {
+            Material::ThinDielectric(ThinDielectric { ior: coefficient(&ior.spectrum()) })
+        }
+        MaterialDoc::Interface {} => return None,
+    })
+}
+
+/// Transparent bodies by the index of their object.
+pub(super) fn build_bodies(doc: &SceneDoc, shapes: &[Shape]) -> Result<Vec<(usize, Body)>, SceneError> {
+    let mut bodies: Vec<(usize, Body)> = Vec::new();
+    for (index, (object, shape)) in doc.objects.iter().zip(shapes).enumerate() {
+        let MaterialDoc::Dielectric { ior, .. } = &object.material else { continue };
+        if !object.enabled {
+            continue;
+        }
+        let name = if object.name.is_empty() { "dielectric" } else { &object.name };
+        let solid = Arc::new(build_solid(shape, name, &format!("objects[{index}].material"))?);
+        let ior = super::coefficient(&ior.spectrum());
+        let body = Body { solid, priority: object.priority, ior };
+        let rival = bodies.iter().find(|(_, other)| {
+            other.priority == body.priority
+                && (reaches(&body.solid, &other.solid) || reaches(&other.solid, &body.solid))
+        });
+        if let Some((other, _)) = rival {
+            return Err(SceneError::Invalid(Problem {
+                path: format!("objects[{index}].priority"),
+                message: format!(
+                    "equals that of objects[{other}], another dielectric in the same place: give the one that is there \
+                     a higher priority"
+                ),
+            }));
+        }
+        bodies.push((index, body));
     }
+    Ok(bodies)
+}
+
+/// Returns whether a point on the surface of a shape lies inside another.
+fn reaches(shape: &Solid, into: &Solid) -> bool {
+    shape.surface_points().into_iter().any(|point| into.contains(point))
+}
+
+/// Bodies that take the place of a medium: all except the object that it fills, those around that object, and,
+/// if the object is a body, those of lower priority.
+pub(super) fn displacing(
+    within: Option<usize>,
+    solid: Option<&Solid>,
+    bodies: &[(usize, Body)],
+) -> Vec<Arc<Solid>> {
+    let own = bodies.iter().find(|(index, _)| Some(*index) == within).map(|(_, body)| body.priority);
+    let displaces = |(index, body): &&(usize, Body)| {
+        let is_around =
+            || solid.is_some_and(|solid| solid.surface_points().into_iter().all(|p| body.solid.contains(p)));
+        let outranked = || own.is_some_and(|own| own > body.priority);
+        Some(*index) != within && !outranked() && (own.is_some() || !is_around())
+    };
+    bodies.iter().filter(displaces).map(|(_, body)| Arc::clone(&body.solid)).collect()
 }
 
 /// The light that a shape emits as, and the shape that paths meet: a box becomes twelve triangles.

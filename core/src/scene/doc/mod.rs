@@ -9,6 +9,7 @@ mod compare;
 mod estimator;
 mod fault;
 mod light;
+mod material;
 mod medium;
 mod object;
 mod render;
@@ -26,8 +27,9 @@ pub use estimator::{
 };
 pub use fault::{Fault, FaultEntry};
 pub use light::LightDoc;
+pub use material::{IorDoc, MaterialDoc};
 pub use medium::{DensityDoc, EmissionDoc, GridRef, MediumDoc, PlacementDoc, Within};
-pub use object::{MaterialDoc, ObjectDoc, ShapeDoc, SurfaceEmissionDoc};
+pub use object::{ObjectDoc, ShapeDoc, SurfaceEmissionDoc};
 pub use render::{Limits, RenderDoc};
 
 use serde::{Deserialize, Serialize};

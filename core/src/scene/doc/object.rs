@@ -1,11 +1,11 @@
 //! Editable objects: shapes with a material.
 
-use super::PlacementDoc;
+use super::{MaterialDoc, PlacementDoc};
 use crate::spectrum::SpectrumDoc;
 use serde::{Deserialize, Serialize};
 
-fn grey() -> SpectrumDoc {
-    SpectrumDoc::Constant(0.5)
+fn is_zero(priority: &i32) -> bool {
+    *priority == 0
 }
 fn unit() -> f32 {
     1.0
@@ -31,6 +31,9 @@ pub struct ObjectDoc {
     pub shape: ShapeDoc,
     /// How the surface scatters light.
     pub material: MaterialDoc,
+    /// Rank among dielectrics: where two overlap, only that of higher priority is there.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub priority: i32,
     /// Light emitted on the outer side. Absent: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub emission: Option<SurfaceEmissionDoc>,
@@ -46,15 +49,18 @@ struct WrittenObject {
     #[serde(flatten)]
     shape: ShapeDoc,
     material: Option<MaterialDoc>,
+    #[serde(default)]
+    priority: i32,
     albedo: Option<SpectrumDoc>,
     emission: Option<SurfaceEmissionDoc>,
 }
 
 impl From<WrittenObject> for ObjectDoc {
     fn from(written: WrittenObject) -> Self {
-        let WrittenObject { name, enabled, shape, material, albedo, emission } = written;
+        let WrittenObject { name, enabled, shape, material, priority, albedo, emission } = written;
         let diffuse = albedo.map(|albedo| MaterialDoc::Diffuse { albedo });
-        Self { name, enabled, shape, material: diffuse.or(material).unwrap_or_default(), emission }
+        let material = diffuse.or(material).unwrap_or_default();
+        Self { name, enabled, shape, material, priority, emission }
     }
 }
 
@@ -120,34 +126,6 @@ pub enum ShapeDoc {
     },
 }
 
-/// Material of an object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum MaterialDoc {
-    /// Lambertian reflection on both sides.
-    Diffuse {
-        /// Reflected fraction, 0 to 1.
-        #[serde(default = "grey")]
-        albedo: SpectrumDoc,
-    },
-    /// An index-matched boundary: light passes unchanged.
-    Interface {},
-}
-
-impl Default for MaterialDoc {
-    fn default() -> Self {
-        Self::Diffuse { albedo: grey() }
-    }
-}
-
-impl MaterialDoc {
-    /// One material of each kind with its display name.
-    #[must_use]
-    pub fn templates() -> Vec<(&'static str, Self)> {
-        vec![("Diffuse", Self::default()), ("Interface", Self::Interface {})]
-    }
-}
-
 /// Light that a surface emits on its outer side.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -193,7 +171,8 @@ impl ObjectDoc {
     /// Creates a diffuse object without a name.
     #[must_use]
     pub fn new(shape: ShapeDoc) -> Self {
-        Self { name: String::new(), enabled: true, shape, material: MaterialDoc::default(), emission: None }
+        let material = MaterialDoc::default();
+        Self { name: String::new(), enabled: true, shape, material, priority: 0, emission: None }
     }
 
     /// One object of each kind with its display name.
@@ -239,7 +218,11 @@ mod tests {
         ] {
             assert!(read(bad).is_err(), "{bad}");
         }
-        for (_, object) in ObjectDoc::templates() {
+        let objects = ObjectDoc::templates().into_iter().map(|(_, object)| object);
+        let plain = || ObjectDoc::new(ShapeDoc::Sphere { center: [0.0; 3], radius: 1.0 });
+        let materials = MaterialDoc::templates().into_iter();
+        let with_material = materials.map(|(_, material)| ObjectDoc { material, priority: -3, ..plain() });
+        for object in objects.chain(with_material) {
             let text = toml::to_string(&object).unwrap();
             assert_eq!(read(&text).unwrap(), object, "{text}");
         }

@@ -113,7 +113,7 @@ pub(super) const KEYS: &[Key] = &[
     ),
     Key::new(
         "objects.*.material.kind",
-        Type::Choice(&["diffuse", "interface"]),
+        Type::Choice(&["diffuse", "mirror", "conductor", "dielectric", "thin-dielectric", "interface"]),
         Is("\"diffuse\""),
         "Material",
         "How the surface scatters light; an interface lets it pass unchanged",
@@ -126,6 +126,61 @@ pub(super) const KEYS: &[Key] = &[
         "Fraction of incident light that is reflected, 0 to 1",
     )
     .kinds(&["diffuse"]),
+    Key::new(
+        "objects.*.material.reflectance",
+        Type::Spectrum(SHARE),
+        Is("1.0"),
+        "Reflectance",
+        "Fraction of incident light that is reflected, 0 to 1",
+    )
+    .kinds(&["mirror"]),
+    Key::new(
+        "objects.*.material.preset",
+        Type::Choice(&["aluminium", "copper", "gold", "silver"]),
+        Absent("given by `eta` and `k`"),
+        "Metal",
+        "Refractive index of a metal, in place of `eta` and `k`",
+    )
+    .kinds(&["conductor"]),
+    Key::new(
+        "objects.*.material.eta",
+        Type::Spectrum(Range::closed(0.0, 100.0)),
+        Absent("given by the preset"),
+        "n",
+        "Real part of the refractive index n + i k",
+    )
+    .kinds(&["conductor"]),
+    Key::new(
+        "objects.*.material.k",
+        Type::Spectrum(Range::closed(0.0, 100.0)),
+        Absent("given by the preset"),
+        "k",
+        "Imaginary part of the refractive index n + i k",
+    )
+    .kinds(&["conductor"]),
+    Key::new(
+        "objects.*.material.ior",
+        Type::Spectrum(Range::closed(1.0, 4.0)),
+        Is("1.5"),
+        "Index",
+        "Refractive index: a number, nm:value points, or { cauchy = [A, B] } for A + B/λ², λ in micrometres",
+    )
+    .kinds(&["dielectric", "thin-dielectric"]),
+    Key::new(
+        "objects.*.material.roughness",
+        Type::Number(SHARE),
+        Is("0.0"),
+        "Roughness",
+        "Width α of the GGX distribution of microfacets; below 0.001 the surface is smooth",
+    )
+    .kinds(&["conductor", "dielectric"]),
+    Key::new(
+        "objects.*.priority",
+        Type::Integer(Range::closed(-1000.0, 1000.0)),
+        Is("0"),
+        "Priority",
+        "Rank among dielectrics: where two overlap, only that of higher priority is there",
+    ),
     Key::new("objects.*.emission.radiance", RADIANCE, Required, "Radiance", RADIANCE_TIP),
     Key::new(
         "objects.*.emission.scale",

@@ -58,6 +58,14 @@ impl MeshInstance {
         corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)))
     }
 
+    /// At most about `most` vertices in world space.
+    #[must_use]
+    pub fn vertices(&self, most: usize) -> Vec<Vec3> {
+        let step = self.mesh.triangle_count().div_ceil(most).max(1);
+        let first = |triangle: usize| self.corners(triangle as u32)[0];
+        (0..self.mesh.triangle_count()).step_by(step).map(first).collect()
+    }
+
     /// Corners of a triangle in world space.
     #[must_use]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
@@ -206,6 +214,26 @@ mod tests {
             assert_eq!(inside.len(), 1);
             assert!(inside[0][0] == 0.0 && (inside[0][1] - half_depth).abs() < 1e-5, "{inside:?}");
             assert!(stretches(&mesh, ray.origin, -axis).is_empty());
+        }
+    }
+
+    /// Normals of slanted faces are perpendicular to them and point outwards under every placement.
+    #[test]
+    fn normals_are_perpendicular_to_stretched_faces() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let mesh = Arc::new(Mesh::new(&corners, Vec::new(), faces).unwrap());
+        for scale in [DVec3::ONE, DVec3::new(3.0, 0.5, 1.0), DVec3::new(1.0, -2.0, 0.3)] {
+            let turn = DQuat::from_rotation_z(0.4);
+            let world = DAffine3::from_scale_rotation_translation(scale, turn, DVec3::ONE);
+            let placed = MeshInstance::new(Arc::clone(&mesh), &world).unwrap();
+            let inside = world.transform_point3(DVec3::splat(0.2)).as_vec3();
+            for triangle in 0..4 {
+                let [a, b, c] = placed.corners(triangle);
+                let normal = placed.normal(triangle);
+                assert!(normal.dot(b - a).abs() < 1e-5 && normal.dot(c - a).abs() < 1e-5, "{scale}");
+                assert!(normal.dot(a - inside) > 0.0, "{scale}");
+            }
         }
     }
 

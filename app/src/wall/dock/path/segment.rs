@@ -21,7 +21,7 @@ fn ray_of(replayed: &Replayed, note: usize) -> Option<(usize, Ray)> {
     replayed.recording.notes[..=note].iter().enumerate().rev().find_map(|(i, told)| match told {
         Note::Camera { ray, .. } | Note::Connect { ray, .. } => Some((i, *ray)),
         // The new ray of a vertex applies from the next event on.
-        Note::Direction { ray, .. } if i < note => Some((i, *ray)),
+        Note::Direction { ray, .. } | Note::Boundary { ray, .. } if i < note => Some((i, *ray)),
         _ => None,
     })
 }

@@ -336,7 +336,9 @@ impl Eye<'_> {
 /// Direction of the path segment that precedes a note.
 fn direction_before(replayed: &Replayed, note: usize) -> Option<Vec3> {
     replayed.recording.notes[..note].iter().rev().find_map(|note| match note {
-        Note::Camera { ray, .. } | Note::Direction { ray, .. } => Some(ray.direction),
+        Note::Camera { ray, .. } | Note::Direction { ray, .. } | Note::Boundary { ray, .. } => {
+            Some(ray.direction)
+        }
         _ => None,
     })
 }
