@@ -6,7 +6,7 @@ use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::medium::Interpolation;
 use majorant_core::scene::{Mode, SceneDoc, build};
 use majorant_core::transport::CancelToken;
-use majorant_tests::render::{CAMERA, allowed, mean, scene};
+use majorant_tests::render::{CAMERA, allowed, mean, mean_with, scene};
 
 /// A light inside a medium is attenuated along the full distance: by e^(−σd) at distance d in a black medium.
 #[test]
@@ -102,6 +102,90 @@ fn a_disabled_part_of_a_scene_is_absent() {
         let [disabled, removed, enabled] = [&doc, &without, &with].map(|doc| mean(doc, entry.id, 16));
         assert_eq!(disabled, removed, "{}", entry.id);
         assert_ne!(disabled, enabled, "{}", entry.id);
+    }
+}
+
+/// Light that total reflection holds in a body for ever ends without a depth limit.
+#[test]
+fn a_camera_inside_clear_glass_finishes() {
+    let doc = scene(
+        "majorant = 2
+        [camera]
+        origin = [0.05, 0.1, 0.02]
+        target = [0.3, 0.4, 0.5]
+        fov_deg = 90.0
+        [film]
+        width = 4
+        height = 4
+        [[lights]]
+        kind = \"environment\"
+        [[objects]]
+        kind = \"box\"
+        center = [0.0, 0.0, 0.0]
+        size = [1.0, 1.0, 1.0]
+        material = { kind = \"dielectric\", ior = 1.9 }
+        [estimator]
+        mode = \"rgb\"",
+    );
+    for entry in REGISTRY {
+        let (seen, _) = mean(&doc, entry.id, 4);
+        // Directions that leave have n² times the radiance outside; most are held.
+        assert!(seen > 0.0 && seen < 1.9 * 1.9, "{}: {seen}", entry.id);
+    }
+}
+
+/// Objects and media within them look the same a thousand units from the origin, in the coordinates of which
+/// single precision resolves 6·10⁻⁵.
+#[test]
+fn objects_keep_their_shape_far_from_the_origin() {
+    let cube = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n\
+                f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n";
+    let at = |x: f32, entry: &str| {
+        let doc = scene(&format!(
+            "majorant = 2
+            [camera]
+            origin = [{}, 1.0, 3.0]
+            target = [{x}, 0.0, 0.0]
+            fov_deg = 30.0
+            [film]
+            width = 4
+            height = 4
+            [[media]]
+            within = \"cube\"
+            extinction = 3.0
+            albedo = 0.8
+            [[lights]]
+            kind = \"environment\"
+            [[objects]]
+            name = \"cube\"
+            kind = \"mesh\"
+            file = \"cube.obj\"
+            placement = {{ rotate_deg = [20.0, 30.0, 0.0], translate = [{}, -0.3, -0.5] }}
+            material = {{ kind = \"interface\" }}
+            [[objects]]
+            kind = \"sphere\"
+            center = [{}, 0.2, 0.4]
+            radius = 0.3
+            material = {{ kind = \"dielectric\" }}
+            [[objects]]
+            kind = \"mesh\"
+            file = \"cube.obj\"
+            placement = {{ scale = [0.4, 0.4, 0.4], translate = [{}, -0.2, 0.3] }}
+            material = {{ kind = \"diffuse\", albedo = 0.9 }}
+            [estimator]
+            mode = \"rgb\"",
+            x + 0.5,
+            x - 0.5,
+            x + 0.5,
+            x - 0.6,
+        ));
+        let library = Library::default().with_volume("cube.obj", cube.as_bytes());
+        mean_with(&doc, entry, 400, library)
+    };
+    for id in ["spectral-mis", "uni-nee-mis"] {
+        let (near, far) = (at(0.0, id), at(1000.0, id));
+        let error = near.1.hypot(far.1);
+        assert!((near.0 - far.0).abs() < allowed(2) * error + 1e-3, "{id}: {near:?} {far:?}");
     }
 }
 

@@ -9,6 +9,7 @@ use majorant_core::inspect::{
     Branch, Ledger, Product, Recording, Row, Split, Step, Strategies, StrategyPlan,
 };
 use majorant_core::io::{Library, embedded, scene_file};
+use majorant_core::material::Metal;
 use majorant_core::math::{Sampler, SamplerKind};
 use majorant_core::scene::keys;
 use majorant_core::scene::{
@@ -54,8 +55,7 @@ fn scenes() -> Vec<(String, SceneDoc)> {
             doc.objects.push(ObjectDoc { material, emission, ..ObjectDoc::new(shape) });
         };
         let ior = || IorDoc::Cauchy { cauchy: [1.4, 0.01] };
-        let metal =
-            MaterialDoc::Conductor { preset: Some("gold".into()), eta: None, k: None, roughness: 0.3 };
+        let metal = MaterialDoc::Conductor { preset: Some(Metal::Gold), eta: None, k: None, roughness: 0.3 };
         add(at([0.4, 0.2, 0.4], 0.25), MaterialDoc::Dielectric { ior: ior(), roughness: 0.0 }, None);
         add(at([-0.3, 0.3, 0.5], 0.2), MaterialDoc::Dielectric { ior: ior(), roughness: 0.3 }, None);
         let size = [0.3, 0.5, 0.3];

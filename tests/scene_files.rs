@@ -7,10 +7,10 @@ use majorant_core::math::SamplerKind;
 use majorant_core::medium::{Interpolation, Precision};
 use majorant_core::scene::{
     Absorption, Angle, Bookkeeping, CameraDoc, CoefficientsDoc, CompareDoc, DensityDoc, DirectionSampling,
-    DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics, IorDoc,
-    LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MaterialDoc, MeasureId, MediumDoc,
-    MediumOverrides, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc, ShapeDoc,
-    SurfaceEmissionDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides, WhenExceeded, Within,
+    DistanceSampling, EmissionDoc, EstimatorDoc, Fairness, Fault, FilmDoc, GridRef, Heuristic, Heuristics,
+    IorDoc, LightDoc, LightSampling, LightSelection, LightWalk, MajorantDoc, MaterialDoc, MeasureId,
+    MediumDoc, MediumOverrides, Mode, ObjectDoc, PhaseDoc, PlacementDoc, ReferenceDoc, RenderDoc, SceneDoc,
+    ShapeDoc, SurfaceEmissionDoc, ToneCurve, Tracking, ViewDoc, ViewOverrides, WhenExceeded, Within,
 };
 use majorant_core::spectrum::{ControlPoint, Outside, SpectrumDoc, WavelengthSampling};
 
@@ -421,14 +421,24 @@ fn objects_that_do_not_fit_are_rejected_where_they_stand() {
         (format!("[[objects]]\n{sphere}normal = [0.0, 1.0, 0.0]\n"), 6, "unknown field"),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"velvet\" }}\n"), 6, "velvet"),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"conductor\" }}\n"), 6, "needs a `preset`"),
-        (format!("[[objects]]\n{sphere}material = {{ kind = \"conductor\", preset = \"tin\" }}\n"), 6, "choose aluminium"),
+        (
+            format!("[[objects]]\n{sphere}material = {{ kind = \"conductor\", preset = \"tin\" }}\n"),
+            6,
+            "expected one of `aluminium`",
+        ),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"dielectric\", ior = 0.5 }}\n"), 6, "1 to 4"),
         (
-            format!("[[objects]]\n{sphere}material = {{ kind = \"dielectric\", ior = {{ cauchy = [1.0, -0.1] }} }}\n"),
+            format!(
+                "[[objects]]\n{sphere}material = {{ kind = \"dielectric\", ior = {{ cauchy = [1.0, -0.1] }} }}\n"
+            ),
             6,
             "outside 1 to 4",
         ),
-        ("[[objects]]\nkind = \"ground\"\nmaterial = { kind = \"dielectric\" }\n".into(), 4, "needs a closed shape"),
+        (
+            "[[objects]]\nkind = \"ground\"\nmaterial = { kind = \"dielectric\" }\n".into(),
+            4,
+            "needs a closed shape",
+        ),
         (format!("[[objects]]\n{sphere}material = {{ kind = \"diffuse\", albedo = 1.5 }}\n"), 6, "0 to 1"),
     ] {
         let message = parse(&format!("majorant = 2\n{text}"), "scene.toml").unwrap_err().to_string();

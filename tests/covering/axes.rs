@@ -285,7 +285,9 @@ impl Row {
             .or_insert_with(|| toml::Value::try_from(place.document()).unwrap())
             .clone();
         let mut parsed = PARSED.lock().unwrap();
-        for (a, axis) in AXES.iter().enumerate().filter(|(_, axis)| ![DENSITY, MEDIA, BOUNDARY].contains(&axis.key)) {
+        for (a, axis) in
+            AXES.iter().enumerate().filter(|(_, axis)| ![DENSITY, MEDIA, BOUNDARY].contains(&axis.key))
+        {
             let text = &axis.values[self.values[a]];
             let value = parsed.entry(text).or_insert_with(|| {
                 toml::from_str::<toml::Table>(&format!("v = {text}")).unwrap().remove("v").unwrap()

@@ -88,9 +88,8 @@ impl Boundary {
                 format!("kind = \"mesh\"\nfile = \"cube.obj\"\nplacement = {{ scale = {extent:?} }}")
             }
         };
-        let object = format!(
-            "[[objects]]\nname = \"boundary\"\n{shape}\nmaterial = {{ kind = \"interface\" }}"
-        );
+        let object =
+            format!("[[objects]]\nname = \"boundary\"\n{shape}\nmaterial = {{ kind = \"interface\" }}");
         (object, "boundary")
     }
 }

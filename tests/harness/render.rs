@@ -30,7 +30,12 @@ pub fn frozen(doc: &SceneDoc, base: &Path) -> Scene {
 
 /// Mean of the image with an estimator, and its standard error, from batches of `spp` samples.
 pub fn mean(doc: &SceneDoc, estimator: &str, spp: u64) -> (f64, f64) {
-    let scene = frozen(doc, Path::new("."));
+    mean_with(doc, estimator, spp, Library::default())
+}
+
+/// As [`mean`], with files from a library.
+pub fn mean_with(doc: &SceneDoc, estimator: &str, spp: u64, mut library: Library) -> (f64, f64) {
+    let scene = build(doc, &mut library).unwrap_or_else(|e| panic!("{e}"));
     let kernel = estimator::find(estimator).unwrap().kernel;
     let settings = Settings::new(&doc.estimator, doc.render.seed);
     let plan =

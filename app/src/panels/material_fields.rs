@@ -2,7 +2,7 @@
 
 use crate::widgets::{SpectrumField, Value, key, row, row_of, segmented, spectrum_editor};
 use egui::{ComboBox, Ui};
-use majorant_core::material::CONDUCTORS;
+use majorant_core::material::Metal;
 use majorant_core::scene::keys::Key;
 use majorant_core::scene::{IorDoc, MaterialDoc};
 use majorant_core::spectrum::{Quantity, SpectrumDoc};
@@ -90,29 +90,31 @@ fn roughness_ui(ui: &mut Ui, name: &str, roughness: &mut f32) {
 fn metal_ui(
     ui: &mut Ui,
     name: &str,
-    preset: &mut Option<String>,
+    preset: &mut Option<Metal>,
     (eta, k): (&mut Option<SpectrumDoc>, &mut Option<SpectrumDoc>),
 ) {
-    let metal = CONDUCTORS.iter().find(|metal| Some(metal.id) == preset.as_deref());
+    let metal = *preset;
     row_of(ui, key("objects.*.material.preset"), |ui, _| {
         let combo = ComboBox::from_id_salt((name, "metal")).width(ui.available_width());
-        let shown = combo.selected_text(metal.map_or("n and k", |metal| metal.name)).show_ui(ui, |ui| {
-            for other in CONDUCTORS {
-                let chosen = metal.is_some_and(|metal| metal.id == other.id);
-                if ui.selectable_label(chosen, other.name).clicked() {
-                    (*preset, *eta, *k) = (Some(other.id.to_owned()), None, None);
+        let shown = combo
+            .selected_text(metal.map_or("n and k".into(), |metal| format!("{metal:?}")))
+            .show_ui(ui, |ui| {
+                for other in Metal::ALL {
+                    if ui.selectable_label(metal == Some(other), format!("{other:?}")).clicked() {
+                        (*preset, *eta, *k) = (Some(other), None, None);
+                    }
                 }
-            }
-            if ui.selectable_label(metal.is_none(), "n and k").clicked() && metal.is_some() {
-                let points = |points: Option<&str>| {
-                    let points =
-                        points.and_then(|points| SpectrumDoc::parse_points(points).ok()).unwrap_or_default();
-                    Some(SpectrumDoc::Points { points, outside: Default::default() })
-                };
-                (*eta, *k) = (points(metal.map(|m| m.eta)), points(metal.map(|m| m.k)));
-                *preset = None;
-            }
-        });
+                if ui.selectable_label(metal.is_none(), "n and k").clicked() && metal.is_some() {
+                    let points = |points: Option<&str>| {
+                        let points = points
+                            .and_then(|points| SpectrumDoc::parse_points(points).ok())
+                            .unwrap_or_default();
+                        Some(SpectrumDoc::Points { points, outside: Default::default() })
+                    };
+                    (*eta, *k) = (points(metal.map(Metal::eta)), points(metal.map(Metal::k)));
+                    *preset = None;
+                }
+            });
         shown.response.accessible_name(format!("{name} metal"));
     });
     for (spectrum, key) in [(eta, key("objects.*.material.eta")), (k, key("objects.*.material.k"))] {

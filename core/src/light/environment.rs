@@ -13,14 +13,17 @@ pub struct Environment {
 }
 
 impl Emitter for Environment {
+    #[inline]
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
         Some(LightSample::new(uniform_direction(u), f32::INFINITY, INV_4PI))
     }
 
+    #[inline]
     fn density(&self, _from: Vec3, _at: &LightPoint) -> f32 {
         INV_4PI
     }
 
+    #[inline]
     fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
         components.radiance(&self.radiance)
     }

@@ -54,6 +54,7 @@ pub struct LightSample {
 impl LightSample {
     /// Creates a sample of a light that is not a mesh.
     #[must_use]
+    #[inline]
     pub fn new(direction: Vec3, distance: f32, density: f32) -> Self {
         Self { point: LightPoint { direction, distance, triangle: 0 }, density }
     }
@@ -117,6 +118,7 @@ macro_rules! each {
 impl Light {
     /// Centre; `None` for distant lights.
     #[must_use]
+    #[inline]
     pub fn center(&self) -> Option<Vec3> {
         match &self.kind {
             LightKind::Rectangle(light) => Some(light.shape.center),
@@ -151,6 +153,7 @@ impl Light {
     /// Whether a ray that leaves the scene in `direction` reaches this light. False for lights with a
     /// surface, which are found by intersection.
     #[must_use]
+    #[inline]
     pub fn is_behind(&self, direction: Vec3) -> bool {
         match &self.kind {
             LightKind::Rectangle(_) | LightKind::Disk(_) | LightKind::Sphere(_) | LightKind::Mesh(_) => false,
@@ -161,10 +164,12 @@ impl Light {
 }
 
 impl Emitter for Light {
+    #[inline]
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
         each!(self, light => light.sample(from, u))
     }
 
+    #[inline]
     fn density(&self, from: Vec3, at: &LightPoint) -> f32 {
         each!(self, light => light.density(from, at))
     }

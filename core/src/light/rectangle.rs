@@ -15,6 +15,7 @@ pub struct RectangleLight {
 }
 
 impl Emitter for RectangleLight {
+    #[inline]
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
         let s = u * 2.0 - Vec2::ONE;
         let point = self.shape.center + self.shape.half_u * s.x + self.shape.half_v * s.y;
@@ -29,11 +30,13 @@ impl Emitter for RectangleLight {
     }
 
     /// distance² / (area · cos θ at the light).
+    #[inline]
     fn density(&self, _from: Vec3, at: &LightPoint) -> f32 {
         let cosine = -at.direction.dot(self.shape.normal);
         if cosine <= 0.0 { 0.0 } else { at.distance * at.distance / (self.shape.area * cosine) }
     }
 
+    #[inline]
     fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
         components.radiance(&self.radiance)
     }

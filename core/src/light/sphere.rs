@@ -18,6 +18,7 @@ pub struct SphereLight {
 
 impl SphereLight {
     /// 1 − cos of the half angle that the sphere subtends, without cancellation; `None` inside.
+    #[inline]
     fn one_minus_cos_max(&self, distance2: f32) -> Option<f32> {
         let sin2 = self.shape.radius * self.shape.radius / distance2;
         (sin2 < 1.0).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
@@ -25,6 +26,7 @@ impl SphereLight {
 }
 
 impl Emitter for SphereLight {
+    #[inline]
     fn sample(&self, from: Vec3, u: Vec2) -> Option<LightSample> {
         let to_center = self.shape.center - from;
         let distance2 = to_center.length_squared();
@@ -38,11 +40,13 @@ impl Emitter for SphereLight {
         Some(LightSample::new(direction, along - half_chord, 1.0 / (TAU * cap)))
     }
 
+    #[inline]
     fn density(&self, from: Vec3, _at: &LightPoint) -> f32 {
         self.one_minus_cos_max((self.shape.center - from).length_squared())
             .map_or(0.0, |cap| 1.0 / (TAU * cap))
     }
 
+    #[inline]
     fn radiance<const N: usize, C: Components<N>>(&self, _direction: Vec3, components: &C) -> C::Radiance {
         components.radiance(&self.radiance)
     }

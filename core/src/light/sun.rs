@@ -51,18 +51,21 @@ impl Sun {
 
     /// Whether the disc covers a direction.
     #[must_use]
+    #[inline]
     pub fn covers(&self, direction: Vec3) -> bool {
         PolarAngle::between(direction, self.toward).one_minus_cos < self.one_minus_cos_max
     }
 }
 
 impl Emitter for Sun {
+    #[inline]
     fn sample(&self, _from: Vec3, u: Vec2) -> Option<LightSample> {
         let theta = PolarAngle::from_one_minus_cos(u.x * self.one_minus_cos_max);
         let direction = Frame::about(self.toward).polar(theta, u.y);
         Some(LightSample::new(direction, f32::INFINITY, 1.0 / (TAU * self.one_minus_cos_max)))
     }
 
+    #[inline]
     fn density(&self, _from: Vec3, _at: &LightPoint) -> f32 {
         1.0 / (TAU * self.one_minus_cos_max)
     }

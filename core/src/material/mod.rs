@@ -12,7 +12,7 @@ mod mirror;
 mod scatterer;
 mod thin_dielectric;
 
-pub use conductor::{CONDUCTORS, Conductor, Metal};
+pub use conductor::{Conductor, Metal};
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub use ggx::{Ggx, SMOOTH};

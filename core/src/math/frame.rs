@@ -15,6 +15,7 @@ impl Frame {
     /// Creates a frame about the unit vector `z` (Duff et al. 2017, "Building an orthonormal basis,
     /// revisited").
     #[must_use]
+    #[inline]
     pub fn about(z: Vec3) -> Self {
         let sign = 1.0f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);
@@ -28,24 +29,28 @@ impl Frame {
 
     /// The z axis.
     #[must_use]
+    #[inline]
     pub fn axis(&self) -> Vec3 {
         self.z
     }
 
     /// Transforms a vector from frame coordinates to the space of `z`.
     #[must_use]
+    #[inline]
     pub fn to_world(&self, v: Vec3) -> Vec3 {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
     /// Transforms a vector from the space of `z` to frame coordinates.
     #[must_use]
+    #[inline]
     pub fn to_local(&self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
     }
 
     /// Unit vector at a polar angle from `z` and an azimuth in turns.
     #[must_use]
+    #[inline]
     pub fn polar(&self, theta: PolarAngle, turns: f32) -> Vec3 {
         let (sin_phi, cos_phi) = sin_cos_turns(turns);
         let sin = theta.sin();

@@ -12,6 +12,7 @@ pub(super) struct HenyeyGreenstein {
 impl Lobe for HenyeyGreenstein {
     /// For g < 0 the lobe is that of −g, mirrored. With g ≥ 0, 1 + g² − 2 g cos θ is evaluated as
     /// (1 − g)² + 2 g (1 − cos θ), whose terms do not cancel for sharp lobes.
+    #[inline]
     fn value(&self, theta: PolarAngle) -> f32 {
         let (g, theta) = if self.g < 0.0 { (-self.g, theta.mirrored()) } else { (self.g, theta) };
         let d = (1.0 - g) * (1.0 - g) + 2.0 * g * theta.one_minus_cos;
@@ -20,6 +21,7 @@ impl Lobe for HenyeyGreenstein {
 
     /// Inverts the cumulative distribution, solved for 1 − cos θ: with d = 1 − g + 2 g ξ it is
     /// 2 (1 − g)² (1 − ξ)(1 + g ξ) / d², well-conditioned for every g ≥ 0 including 0.
+    #[inline]
     fn sample(&self, u: f32) -> PolarAngle {
         let g = self.g.abs();
         let d = 1.0 - g + 2.0 * g * u;
@@ -28,6 +30,7 @@ impl Lobe for HenyeyGreenstein {
         if self.g < 0.0 { theta.mirrored() } else { theta }
     }
 
+    #[inline]
     fn mean_cosine(&self) -> f32 {
         self.g
     }

@@ -96,12 +96,14 @@ impl Phase {
 
     /// Mean cosine ∫ p cos θ dω.
     #[must_use]
+    #[inline]
     pub fn mean_cosine(&self) -> f32 {
         self.mean_cosine
     }
 
     /// Value at a cosine of the scattering angle, per steradian; for plots of the lobe.
     #[must_use]
+    #[inline]
     pub fn value(&self, cosine: f32) -> f32 {
         let theta = PolarAngle { one_minus_cos: 1.0 - cosine, one_plus_cos: 1.0 + cosine };
         self.at(theta)
@@ -113,12 +115,14 @@ impl Phase {
 
     /// Value and density of scattering from `omega_in` to `omega_out`, per steradian.
     #[must_use]
+    #[inline]
     pub fn density(&self, omega_in: Vec3, omega_out: Vec3) -> f32 {
         self.at(PolarAngle::between(omega_in, omega_out))
     }
 
     /// Draws the direction after scattering and returns it with its density, which is [`Self::density`].
     #[must_use]
+    #[inline]
     pub fn sample(&self, omega_in: Vec3, u: Vec2) -> (Vec3, f32) {
         let theta = each!(self, lobe => lobe.sample(u.x));
         let direction = Frame::about(omega_in).polar(theta, u.y);

@@ -13,11 +13,13 @@ pub(super) struct TwoLobe {
 }
 
 impl Lobe for TwoLobe {
+    #[inline]
     fn value(&self, theta: PolarAngle) -> f32 {
         self.share * self.first.value(theta) + (1.0 - self.share) * self.second.value(theta)
     }
 
     /// Selects a lobe and reuses the remainder of the random number to sample it.
+    #[inline]
     fn sample(&self, u: f32) -> PolarAngle {
         if u < self.share {
             self.first.sample(u / self.share)
@@ -26,6 +28,7 @@ impl Lobe for TwoLobe {
         }
     }
 
+    #[inline]
     fn mean_cosine(&self) -> f32 {
         self.share * self.first.g + (1.0 - self.share) * self.second.g
     }

@@ -135,18 +135,21 @@ pub struct NearestSurface<'a>(Option<(SurfaceHit, &'a Surface, u32)>);
 impl<'a> NearestSurface<'a> {
     /// Distance along the ray; infinite without a hit.
     #[must_use]
+    #[inline]
     pub fn t(&self) -> f32 {
         self.0.map_or(f32::INFINITY, |(hit, ..)| hit.t)
     }
 
     /// Unit normal; zero without a hit.
     #[must_use]
+    #[inline]
     pub fn normal(&self) -> Vec3 {
         self.0.map_or(Vec3::ZERO, |(hit, ..)| hit.normal)
     }
 
     /// The end of the ray as a point of a light.
     #[must_use]
+    #[inline]
     pub fn light_point(&self, ray: &Ray) -> LightPoint {
         let triangle = self.0.map_or(0, |(hit, ..)| hit.triangle);
         LightPoint { direction: ray.direction, distance: self.t(), triangle }
@@ -154,12 +157,14 @@ impl<'a> NearestSurface<'a> {
 
     /// Returns whether the ray meets no surface.
     #[must_use]
+    #[inline]
     pub fn is_none(&self) -> bool {
         self.0.is_none()
     }
 
     /// Index of the light that the surface emits as, if any.
     #[must_use]
+    #[inline]
     pub fn light(&self) -> Option<usize> {
         self.0?.1.light
     }
@@ -172,18 +177,21 @@ impl<'a> NearestSurface<'a> {
 
     /// Transparent body that the surface bounds, if any.
     #[must_use]
+    #[inline]
     pub fn body(&self) -> Option<u32> {
         self.0?.1.body
     }
 
     /// Material of the surface; `None` without a hit, and where all light is absorbed.
     #[must_use]
+    #[inline]
     pub fn material(&self) -> Option<&'a Material> {
         self.0?.1.material.as_ref()
     }
 
     /// The point that the ray meets; `None` without a hit.
     #[must_use]
+    #[inline]
     pub fn point(&self, ray: &Ray) -> Option<SurfacePoint> {
         self.0.map(|(hit, surface, _)| surface.shape.point(ray, &hit))
     }
@@ -247,6 +255,7 @@ impl Scene {
 
     /// Returns whether any surface intersects the ray at `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
         if self.bodies.0.len() > 1 {
             // Faces of bodies inside others may be no boundary.
@@ -258,6 +267,7 @@ impl Scene {
     /// Returns the nearest surface along a ray at `0 < t < t_max`. Camera rays pass through lights that are
     /// hidden from the camera.
     #[must_use]
+    #[inline]
     pub fn nearest_surface(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
         let nearest = self.nearest_face(ray, t_max, from_camera);
         if self.bodies.0.len() < 2 {
@@ -292,6 +302,7 @@ impl Scene {
         Some(self.bodies.crossing(body, at.position, side, at.error, enters))
     }
 
+    #[inline]
     fn nearest_face(&self, ray: &Ray, t_max: f32, from_camera: bool) -> NearestSurface<'_> {
         let mut nearest: Option<(SurfaceHit, &Surface, u32)> = None;
         for (index, surface) in (0..).zip(&self.surfaces) {

@@ -37,6 +37,7 @@ pub struct SurfaceHit {
 impl SurfaceHit {
     /// Creates an intersection with a shape that has no triangles.
     #[must_use]
+    #[inline]
     pub fn new(t: f32, normal: Vec3) -> Self {
         Self { t, normal, triangle: 0, barycentric: Vec2::ZERO }
     }
@@ -77,6 +78,7 @@ pub enum Shape {
 impl Shape {
     /// Nearest intersection at `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         match self {
             Self::Rectangle(s) => s.intersect(ray, t_max),
@@ -90,6 +92,7 @@ impl Shape {
 
     /// Whether the ray intersects the shape at `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn occludes(&self, ray: &Ray, t_max: f32) -> bool {
         match self {
             Self::Mesh(s) => s.occludes(ray, t_max),
@@ -100,6 +103,7 @@ impl Shape {
     /// The point of an intersection, as precise as the shape allows: on spheres and meshes the error does not
     /// grow with the distance to the ray's origin.
     #[must_use]
+    #[inline]
     pub fn point(&self, ray: &Ray, hit: &SurfaceHit) -> SurfacePoint {
         let by = |position: Vec3, size: f32| SurfacePoint {
             position,

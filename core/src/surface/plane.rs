@@ -16,6 +16,7 @@ pub struct Plane {
 impl Plane {
     /// Intersection at `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let t = (self.point - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
         (t > 0.0 && t < t_max).then_some(SurfaceHit::new(t, self.normal))

@@ -43,6 +43,7 @@ impl Rectangle {
 
     /// Intersection at `0 < t < t_max`, from either side.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         let t = (self.center - ray.origin).dot(self.normal) / ray.direction.dot(self.normal);
         // The negated form also rejects NaN, from rays within the plane.

@@ -16,6 +16,7 @@ pub struct Sphere {
 impl Sphere {
     /// Nearest intersection at `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn intersect(&self, ray: &Ray, t_max: f32) -> Option<SurfaceHit> {
         // With unit direction: the distance to the foot of the centre, then Pythagoras from the foot, which
         // is precise for small and distant spheres (Haines et al. 2019).
@@ -37,6 +38,7 @@ impl Sphere {
     /// The half chord follows from the point of the line nearest to the centre, which loses fewer digits for a
     /// distant ray origin than the discriminant b² − c does.
     #[must_use]
+    #[inline]
     pub fn interval(&self, ray: &Ray) -> Option<[f32; 2]> {
         let middle = (self.center - ray.origin).dot(ray.direction);
         let nearest = (ray.at(middle) - self.center).length();

@@ -17,7 +17,7 @@ use crate::material::{Material, Scattered, Scatterer};
 use crate::math::{Frame, Ray};
 use crate::medium::LocalMedia;
 use crate::spectrum::{Components, Sampled};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A direction at a boundary with its values and densities at all components, relative to their largest.
 #[derive(Clone, Copy, Debug)]
@@ -125,22 +125,24 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
             return Some((ray, outgoing, Sampled::ONE, true));
         };
         let lane = if N == 1 { 0 } else { ((trace.sampler.next_1d() * N as f32) as usize).min(N - 1) };
-        let (ray, drawn) = self.draw_at_boundary(vertex, boundary, lane, trace)?;
+        let (ray, u, drawn) = self.draw_at_boundary(vertex, boundary, lane, trace)?;
+        let drawn = Scattered { density: Sampled::splat(drawn.density.mean()), ..drawn };
+        Self::note_leaving(ray, u, &drawn, trace);
         let most = drawn.value.max_component();
         let direction = ray.direction;
-        let outgoing = DirectionSample { direction, value: most, density: drawn.density.mean() };
+        let outgoing = DirectionSample { direction, value: most, density: drawn.density.hero() };
         (most > 0.0).then(|| (ray, outgoing, drawn.value * (1.0 / most), !drawn.is_specular))
     }
 
-    /// Draws the direction in which a path leaves a boundary with the density of component `lane`; `None` where
-    /// it is absorbed.
-    pub fn draw_at_boundary(
+    /// Draws the direction in which a path leaves a boundary with the density of component `lane`. Returns the
+    /// next ray, the random numbers and the direction; `None` where the path is absorbed.
+    fn draw_at_boundary(
         &self,
         vertex: &Vertex,
         boundary: &Boundary,
         lane: usize,
         trace: &mut Trace<'_>,
-    ) -> Option<(Ray, Scattered<N>)> {
+    ) -> Option<(Ray, Vec2, Scattered<N>)> {
         let Vertex::Surface { omega_in, normal, outward, .. } = vertex else { return None };
         let u = trace.sampler.direction();
         let which = trace.sampler.next_1d();
@@ -152,11 +154,13 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         if (drawn.wi.z > 0.0) != (outward.dot(direction) > 0.0) {
             return None;
         }
-        let ray = vertex.ray(direction);
+        Some((vertex.ray(direction), u, drawn))
+    }
+
+    fn note_leaving(ray: Ray, u: Vec2, drawn: &Scattered<N>, trace: &mut Trace<'_>) {
         let (value, density) = (drawn.value.lanes(), drawn.density.lanes());
         let is_specular = drawn.is_specular;
         trace.notify(move || Note::Boundary { ray, u, value, density, is_specular });
-        Some((ray, drawn))
     }
 
     /// Samples the direction in which a path leaves a vertex by [`Self::leave_by_any`] and multiplies it into
@@ -186,13 +190,17 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         trace: &mut Trace<'_>,
     ) -> Ray {
         match self.draw_at_boundary(vertex, boundary, 0, trace) {
-            Some((ray, drawn)) => {
+            Some((ray, u, drawn)) => {
+                Self::note_leaving(ray, u, &drawn, trace);
                 weights.leave(drawn.value, drawn.density, !drawn.is_specular);
                 ray
             }
             None => {
-                weights.reflect(Sampled::ZERO);
-                Ray { origin: vertex.point(), direction: Vec3::Y }
+                weights.leave(Sampled::ZERO, Sampled::ONE, true);
+                let ray = Ray { origin: vertex.point(), direction: Vec3::Y };
+                let (value, density, u) = ([0.0; 4], [1.0; 4], Vec2::ZERO);
+                trace.notify(move || Note::Boundary { ray, u, value, density, is_specular: false });
+                ray
             }
         }
     }

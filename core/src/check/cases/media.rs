@@ -15,7 +15,7 @@ use super::super::{Answer, Case, CheckError, Family, Layout, fixture};
 use super::single_scattering::{Cube, Disc, QUADRATURE, in_lattice, sun};
 use super::thermal::planck;
 use super::{
-    ASIDE, AXIS, CONNECTING_AND_ONE, FAMILIES_WITH_DISTANCE_SAMPLING, SEVERAL_COMPONENTS,
+    ASIDE, AXIS, CONNECTING, CONNECTING_AND_ONE, FAMILIES_WITH_DISTANCE_SAMPLING, SEVERAL_COMPONENTS,
     UNIDIRECTIONAL_AND_FULL,
 };
 use crate::io::Library;
@@ -274,7 +274,7 @@ fn single() -> Result<Vec<Case>, CheckError> {
     let toml = format!("{AXIS}\n{}\n{}\n{light}", half("some", 0.3, 1.0), half("rest", 0.7, 1.4));
     let split = Case::new("media/one-grid-as-two-media", &toml, answer.within(5e-4))?
         .with_files(Library::default().with_volume("rough.npy", rough.npy()));
-    Ok(vec![phases, sphere, split])
+    Ok(vec![phases, sphere.among(&CONNECTING), split])
 }
 
 fn cases() -> Result<Vec<Case>, CheckError> {

@@ -2,9 +2,7 @@
 
 use super::Resources;
 use crate::light::{DiskLight, LightKind, MeshLight, RectangleLight, SphereLight};
-use crate::material::{
-    CONDUCTORS, Conductor, Dielectric, Diffuse, Ggx, Material, Mirror, SMOOTH, ThinDielectric,
-};
+use crate::material::{Conductor, Dielectric, Diffuse, Ggx, Material, Mirror, SMOOTH, ThinDielectric};
 use crate::scene::{
     Body, MaterialDoc, ObjectDoc, ObjectInfo, Problem, SceneDoc, SceneError, ShapeDoc, SurfaceEmissionDoc,
     placement,
@@ -84,13 +82,12 @@ pub(super) fn build_material(doc: &MaterialDoc) -> Option<Material> {
             Material::Mirror(Mirror { reflectance: coefficient(reflectance) })
         }
         MaterialDoc::Conductor { preset, eta, k, roughness } => {
-            let metal = CONDUCTORS.iter().find(|metal| Some(metal.id) == preset.as_deref());
             let named = |points: &str| {
                 let points = SpectrumDoc::parse_points(points).unwrap_or_default();
                 Spectrum::new(&SpectrumDoc::Points { points, outside: Outside::Hold }, Quantity::Coefficient)
             };
-            let (n, absorption) = match (metal, eta, k) {
-                (Some(metal), ..) => (named(metal.eta), named(metal.k)),
+            let (n, absorption) = match (preset, eta, k) {
+                (Some(metal), ..) => (named(metal.eta()), named(metal.k())),
                 (None, Some(eta), Some(k)) => (coefficient(eta), coefficient(k)),
                 _ => (Spectrum::constant(1.0), Spectrum::constant(0.0)),
             };

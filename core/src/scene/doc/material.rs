@@ -1,5 +1,6 @@
 //! Editable materials.
 
+use crate::material::Metal;
 use crate::spectrum::{ControlPoint, Outside, SpectrumDoc};
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +31,7 @@ pub enum MaterialDoc {
     Conductor {
         /// Name of a metal, in place of `eta` and `k`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        preset: Option<String>,
+        preset: Option<Metal>,
         /// Real part of the refractive index.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         eta: Option<SpectrumDoc>,
@@ -120,7 +121,7 @@ impl MaterialDoc {
     /// One material of each kind with its display name.
     #[must_use]
     pub fn templates() -> Vec<(&'static str, Self)> {
-        let metal = Some("gold".to_owned());
+        let metal = Some(Metal::Gold);
         let ior = IorDoc::default;
         vec![
             ("Diffuse", Self::default()),

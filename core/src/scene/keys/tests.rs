@@ -142,7 +142,7 @@ fn expected(message: &str) -> BTreeSet<String> {
 const EARLIER: [&str; 4] = ["arrangement", "pair", "layer", "own_zoom"];
 
 /// Keys that objects of all kinds have, and which messages about the keys of a kind do not list.
-const OF_ALL_OBJECTS: [&str; 4] = ["name", "enabled", "material", "emission"];
+const OF_ALL_OBJECTS: [&str; 5] = ["name", "enabled", "material", "emission", "priority"];
 
 #[test]
 fn every_key_has_one_row_and_every_row_a_key() {
@@ -218,6 +218,14 @@ fn with(place: &Place, key: &Key, value: Value) -> Result<SceneDoc, String> {
     put(&mut table, key.path, value);
     if key.path == "medium.extent" {
         put(&mut table, "medium.within", "everywhere".into());
+    }
+    // A conductor is given by its name, or by n and k.
+    if place.kind == Some("conductor") {
+        match key.path.rsplit('.').next() {
+            Some("eta") => put(&mut table, "objects.*.material.k", Value::Float(1.0)),
+            Some("k") => put(&mut table, "objects.*.material.eta", Value::Float(1.0)),
+            _ => put(&mut table, "objects.*.material.preset", "gold".into()),
+        }
     }
     let mut doc = read(&table)?;
     // A view names media of a scene with several.

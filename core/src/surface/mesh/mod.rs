@@ -129,7 +129,7 @@ impl Mesh {
     /// The cube from (0, 0, 0) to (1, 1, 1), of twelve triangles.
     ///
     /// # Errors
-    /// None in practice; the constructor's type is kept.
+    /// As for [`Self::new`].
     pub fn cube() -> Result<Self, MeshError> {
         let corners =
             (0..8u8).map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)));
