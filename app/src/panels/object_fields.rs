@@ -28,6 +28,13 @@ pub fn object_ui(ui: &mut Ui, cx: &mut Cx<'_>, index: usize) {
             cx.commands.push(Command::Ask(Purpose::Mesh(index)));
         }
     }
+    let info = cx.state.scene.as_ref().and_then(|scene| scene.objects.get(index));
+    if let Some(info) = info.filter(|info| info.triangles > 0) {
+        let (triangles, vertices) = (info.triangles, info.vertices);
+        let megabytes = info.memory_bytes as f64 / 1e6;
+        hint(ui, &format!("{triangles} triangles, {vertices} vertices, {megabytes:.1} MB."));
+    }
+    let object = &mut cx.draft.objects[index];
     shape_ui(ui, &name, &mut object.shape, &opened.shape, &template.shape);
     material_ui(ui, &name, &mut object.material, &opened.material);
     if matches!(object.material, MaterialDoc::Dielectric { .. }) {

@@ -17,6 +17,9 @@ use super::{Ggx, fresnel};
 use crate::spectrum::Sampled;
 use glam::{Vec2, Vec3};
 
+/// Probability with which a path survives a total reflection.
+const HELD: f32 = 0.99;
+
 /// Material at the components of a path, as seen from the side on which the path arrives.
 #[derive(Clone, Copy, Debug)]
 pub enum Scatterer<const N: usize> {
@@ -79,6 +82,11 @@ impl<const N: usize> Scatterer<N> {
             }
             Self::Dielectric(eta, None) => {
                 let reflected = eta.map(|eta| fresnel::dielectric(wo.z, eta).reflectance);
+                if reflected.0[lane] >= 1.0 {
+                    // Total reflection can hold a path within a body for ever: it survives by roulette.
+                    let held = reflected * (1.0 / HELD);
+                    return if which < HELD { smooth(mirrored, held, reflected) } else { None };
+                }
                 if which < reflected.0[lane] {
                     return smooth(mirrored, reflected, reflected);
                 }
@@ -281,8 +289,10 @@ mod tests {
             let sin = (1.0 - passed.wi.z * passed.wi.z).sqrt();
             assert!((sin * eta - 0.6).abs() < 1e-6 && passed.wi.z < 0.0);
         }
-        let total = Scatterer::Dielectric(Sampled([0.5]), None).draw(wo, 0, Vec2::ZERO, 0.999_999).unwrap();
-        assert!(total.wi.z > 0.0 && total.value.hero() == 1.0);
+        let glass = Scatterer::Dielectric(Sampled([0.5]), None);
+        let total = glass.draw(wo, 0, Vec2::ZERO, 0.9).unwrap();
+        assert!(total.wi.z > 0.0 && (HELD * total.value.hero() - 1.0).abs() < 1e-6);
+        assert!(glass.draw(wo, 0, Vec2::ZERO, 0.995).is_none());
         let pane = Scatterer::Thin(Sampled([1.5]));
         let [a, b] = [0.0, 0.999_999].map(|u| pane.draw(wo, 0, Vec2::ZERO, u).unwrap());
         assert!((a.value.hero() + b.value.hero() - 1.0).abs() < 1e-6 && b.wi == -wo);

@@ -58,9 +58,6 @@ impl PathSettings {
     }
 }
 
-/// Number of real vertices beyond which a path may end although it has lost nothing.
-const ENDLESS: u32 = 50_000;
-
 /// Steps of a path between two checks of the cancellation token.
 const STEPS_PER_CHECK: u32 = 1024;
 
@@ -308,8 +305,8 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         vertices < self.settings.max_depth && !weights.is_zero() && !trace.must_stop()
     }
 
-    /// Russian roulette: the path survives with a probability equal to its throughput, clamped to 0.05 to 1 (to
-    /// 0.99 on endless paths), and its weights are divided accordingly.
+    /// Russian roulette: the path survives with a probability equal to its throughput, clamped to 0.05 to 1,
+    /// and its weights are divided accordingly.
     pub fn survives_roulette(
         &self,
         vertices: u32,
@@ -319,11 +316,7 @@ impl<M: LocalMedia<N>, C: Components<N>, const N: usize> World<'_, M, C, N> {
         if vertices < self.settings.first_roulette() {
             return true;
         }
-        let mut q = weights.throughput().clamp(0.05, 1.0);
-        if vertices > ENDLESS {
-            // Total reflection can hold a path within a body for ever.
-            q = q.min(0.99);
-        }
+        let q = weights.throughput().clamp(0.05, 1.0);
         if q < 1.0 {
             let u = trace.sampler.roulette();
             trace.notify(move || Note::Roulette { u, q });

@@ -12,7 +12,7 @@ use glam::Vec3;
 use majorant_core::inspect::{Branch, Row, Step};
 use majorant_core::medium::Region;
 use majorant_core::scene::{Camera, CameraDoc, LightDoc, Scene, SceneDoc, SceneMedium};
-use majorant_core::surface::Solid;
+use majorant_core::surface::{self, MeshInstance, Solid};
 use majorant_core::transport::Note;
 
 /// Number of steps in the search for the visible part of a line.
@@ -83,6 +83,7 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
     painter.rect_filled(rect, 3.0, palette.well);
     let eye = Eye { camera, rect, painter, palette };
     eye.media(scene);
+    eye.objects(scene);
     eye.lights(&doc, center, size);
     eye.path(replayed, center, size);
     if let Some(row) = replayed.ledger.rows.get(state.step) {
@@ -107,6 +108,12 @@ pub(super) fn space_ui(ui: &mut Ui, cx: &mut Cx<'_>, replayed: &Replayed) {
         "Drag to orbit, scroll to zoom, click to select an event, double-click to reset",
     );
 }
+
+/// Colour of lights.
+const LIGHT: Color32 = Color32::from_rgb(236, 190, 60);
+
+/// Number of triangles up to which all edges of a mesh are drawn.
+const MOST_EDGES: u32 = 400;
 
 /// Centre and diagonal of the bounds of all media.
 fn extent(scene: &Scene) -> (Vec3, f32) {
@@ -159,9 +166,45 @@ impl Eye<'_> {
                 let corner = |unit: Vec3| (unit * 2.0 - 1.0) * b.half_size;
                 self.frame(|unit| b.center + b.world_from_box * corner(unit), stroke);
             }
-            Solid::Mesh(mesh) => {
-                let (lo, hi) = mesh.bounds();
-                self.frame(|unit| lo + unit * (hi - lo), stroke);
+            Solid::Mesh(mesh) => self.mesh(mesh, stroke),
+        }
+    }
+
+    /// Draws the edges of a small mesh, or the bounds of a large one.
+    fn mesh(&self, mesh: &MeshInstance, stroke: Stroke) {
+        let count = mesh.mesh().triangle_count() as u32;
+        if count > MOST_EDGES {
+            let (lo, hi) = mesh.bounds();
+            self.frame(|unit| lo + unit * (hi - lo), stroke);
+            return;
+        }
+        for [a, b, c] in (0..count).map(|triangle| mesh.corners(triangle)) {
+            [(a, b), (b, c), (c, a)].into_iter().for_each(|(from, to)| self.line(from, to, stroke));
+        }
+    }
+
+    /// Draws the outlines of surfaces, except for those of lights, which are drawn from the document.
+    fn objects(&self, scene: &Scene) {
+        for visible in scene.surfaces.iter().filter(|surface| surface.material.is_some()) {
+            let color = if visible.light.is_some() { LIGHT } else { self.palette.weak };
+            let stroke = Stroke::new(0.8, color);
+            match &visible.shape {
+                surface::Shape::Sphere(s) => self.solid(&Solid::Sphere(*s), stroke),
+                surface::Shape::Box(b) => self.solid(&Solid::Box(*b), stroke),
+                surface::Shape::Mesh(mesh) => self.mesh(mesh, stroke),
+                surface::Shape::Disk(disk) => {
+                    let (u, v) = disk.normal.any_orthonormal_pair();
+                    self.circle(disk.center, (u, v), disk.radius, stroke);
+                }
+                surface::Shape::Rectangle(r) => {
+                    let corners =
+                        [r.half_u + r.half_v, r.half_v - r.half_u, -r.half_u - r.half_v, r.half_u - r.half_v];
+                    for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+                        self.line(r.center + *from, r.center + *to, stroke);
+                    }
+                }
+                // An infinite plane has no outline.
+                surface::Shape::Plane(_) => {}
             }
         }
     }
@@ -169,12 +212,17 @@ impl Eye<'_> {
     /// Draws three circles of a sphere.
     fn circles(&self, center: Vec3, radius: f32, stroke: Stroke) {
         for axes in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
-            let at = |i: u16| {
-                let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / 32.0).sin_cos();
-                center + (axes.0 * cos + axes.1 * sin) * radius
-            };
-            (0..32).for_each(|i| self.line(at(i), at(i + 1), stroke));
+            self.circle(center, axes, radius, stroke);
         }
+    }
+
+    /// Draws a circle in the plane of two unit vectors.
+    fn circle(&self, center: Vec3, axes: (Vec3, Vec3), radius: f32, stroke: Stroke) {
+        let at = |i: u16| {
+            let (sin, cos) = (f32::from(i) * std::f32::consts::TAU / 32.0).sin_cos();
+            center + (axes.0 * cos + axes.1 * sin) * radius
+        };
+        (0..32).for_each(|i| self.line(at(i), at(i + 1), stroke));
     }
 
     fn frame(&self, at: impl Fn(Vec3) -> Vec3, stroke: Stroke) {
@@ -190,7 +238,7 @@ impl Eye<'_> {
 
     /// Draws rectangle and sphere lights as outlines, and suns as arrows.
     fn lights(&self, doc: &SceneDoc, center: Vec3, size: f32) {
-        let stroke = Stroke::new(1.4, Color32::from_rgb(236, 190, 60));
+        let stroke = Stroke::new(1.4, LIGHT);
         for light in &doc.lights {
             match light {
                 LightDoc::Rectangle { center, target, up, size, .. } => {
