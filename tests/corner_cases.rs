@@ -1,11 +1,13 @@
 //! Extreme scenes that need separate tests in addition to the cases of `conformance.rs`.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "tests may panic")]
 
+use glam::{Vec2, Vec3};
 use majorant_core::estimator::{self, PathIndex, REGISTRY, Settings};
 use majorant_core::io::{Library, embedded, scene_file};
 use majorant_core::medium::Interpolation;
+use majorant_core::phase::{Phase, PhaseDoc};
 use majorant_core::scene::{Mode, SceneDoc, build};
-use majorant_core::transport::CancelToken;
+use majorant_core::transport::{CancelToken, DirectionSampler, Vertex};
 use majorant_tests::render::{CAMERA, allowed, mean, mean_with, scene};
 
 /// A light inside a medium is attenuated along the full distance: by e^(−σd) at distance d in a black medium.
@@ -131,6 +133,83 @@ fn a_camera_inside_clear_glass_finishes() {
         let (seen, _) = mean(&doc, entry.id, 1);
         // Directions that leave have n² times the radiance outside; most are held.
         assert!(seen > 0.0 && seen < 1.9 * 1.9, "{}: {seen}", entry.id);
+    }
+}
+
+/// A body of lower priority has no boundary, no index and no medium inside another.
+#[test]
+fn a_displaced_body_is_absent() {
+    let glass = |liquid: &str| {
+        let doc = scene(&format!(
+            "majorant = 2
+            [camera]
+            origin = [0.4, 0.3, 2.6]
+            fov_deg = 30.0
+            [film]
+            width = 8
+            height = 8
+            [[media]]
+            within = \"glass\"
+            extinction = 1.0
+            albedo = 0.0
+            [[lights]]
+            kind = \"environment\"
+            [[lights]]
+            kind = \"sphere\"
+            center = [1.0, 1.5, 0.5]
+            radius = 0.5
+            [[objects]]
+            name = \"glass\"
+            kind = \"sphere\"
+            center = [0.0, 0.0, 0.0]
+            radius = 0.8
+            material = {{ kind = \"dielectric\", ior = 1.5 }}
+            {liquid}
+            [estimator]
+            mode = \"rgb\""
+        ));
+        ["spectral-mis", "uni-nee-mis"].map(|id| mean(&doc, id, 32))
+    };
+    let liquid = |priority: i32| {
+        format!(
+            "[[media]]
+            name = \"liquid\"
+            within = \"liquid\"
+            extinction = 8.0
+            albedo = 0.0
+            [[objects]]
+            name = \"liquid\"
+            kind = \"box\"
+            center = [0.1, 0.0, 0.0]
+            size = [0.6, 0.5, 0.7]
+            priority = {priority}
+            material = {{ kind = \"dielectric\", ior = 1.1 }}"
+        )
+    };
+    let (alone, outranked, there) = (glass(""), glass(&liquid(-1)), glass(&liquid(1)));
+    for ((alone, outranked), there) in alone.iter().zip(outranked).zip(there) {
+        let error = alone.1.hypot(outranked.1);
+        assert!((alone.0 - outranked.0).abs() < allowed(2) * error, "{alone:?} {outranked:?}");
+        assert!((alone.0 - there.0).abs() > 20.0 * error, "{alone:?} {there:?}");
+    }
+}
+
+/// On a smooth mesh no light comes from below the geometry, although it is above the interpolated normal.
+#[test]
+fn light_from_below_a_smooth_surface_is_left_out() {
+    let phase = Phase::new(&PhaseDoc::Isotropic {});
+    let sampler = DirectionSampler { phase: &phase, guide: None };
+    let normal = Vec3::new(0.6, 0.0, 0.8);
+    let (point, omega_in) = (Vec3::ZERO, Vec3::NEG_Z);
+    let vertex = Vertex::Surface { point, omega_in, normal, outward: Vec3::Z, boundary: None };
+    let below = Vec3::new(1.0, 0.0, -0.1).normalize();
+    let towards = sampler.towards(&vertex, below);
+    assert!(towards.value == 0.0 && towards.density > 0.0, "{towards:?}");
+    assert!(sampler.towards(&vertex, Vec3::Z).value > 0.0);
+    for i in 0..1000u16 {
+        let u = Vec2::new((f32::from(i) + 0.5) / 1000.0, (f32::from(i) * 0.618_034).fract());
+        let drawn = sampler.draw(&vertex, u);
+        assert_eq!(drawn.value > 0.0, drawn.direction.z > 0.0, "{drawn:?}");
     }
 }
 

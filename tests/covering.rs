@@ -63,7 +63,7 @@ const DETECT: f64 = 0.01;
 /// Detectable relative bias for single choices, whose biases are larger.
 const DETECT_CHOICE: f64 = 0.02;
 /// Maximum number of paths per row; every row needs fewer.
-const MAX_PATHS: u64 = 12_000_000;
+const MAX_PATHS: u64 = 20_000_000;
 
 /// Whether a row would have detected a relative bias of this size; false if its noise is unknown.
 fn detects(row: &majorant_core::check::Row, bias: f64) -> bool {
